@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# Every third party is looked for here and nowhere else. No downloads.
+
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(GDAL 3.4 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, nadir_opencv_imgcodecs
+if(NADIR_BUILD_APPS)
+  find_package(CLI11 REQUIRED)
+endif()
+if(NADIR_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(NADIR_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()
+
+# pocketfft (BSD, header-only), as Debian ships it inside gemmi-dev or wherever the user has it.
+find_path(POCKETFFT_INCLUDE_DIR pocketfft_hdronly.h PATH_SUFFIXES gemmi/third_party pocketfft)
+if(NOT POCKETFFT_INCLUDE_DIR)
+  message(FATAL_ERROR "pocketfft_hdronly.h not found: install gemmi-dev or set POCKETFFT_INCLUDE_DIR")
+endif()
+add_library(nadir_pocketfft INTERFACE)
+target_include_directories(nadir_pocketfft SYSTEM INTERFACE ${POCKETFFT_INCLUDE_DIR})
+target_link_libraries(nadir_pocketfft INTERFACE Threads::Threads)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+# The shape that all targets of nadir share. Nothing here touches a parent project's flags.
+
+add_library(nadir_build_flags INTERFACE)
+target_compile_features(nadir_build_flags INTERFACE cxx_std_20)
+target_compile_options(nadir_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual
+  # a*b+c must round the same way in every build, or the same seed gives other bytes
+  -ffp-contract=off
+  # g++ 12 sees overlaps where std::string has none (GCC bug 105651)
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+if(NADIR_WARNINGS_AS_ERRORS)
+  target_compile_options(nadir_build_flags INTERFACE -Werror)
+endif()
+
+# nadir_add_library(NAME SOURCES file... [PUBLIC target...] [PRIVATE target...])
+function(nadir_add_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(nadir_${name} ${arg_SOURCES})
+  add_library(nadir::${name} ALIAS nadir_${name})
+  set_target_properties(nadir_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+                        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(nadir_${name} PUBLIC cxx_std_20)
+  target_include_directories(nadir_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(nadir_${name} PUBLIC ${arg_PUBLIC}
+                        PRIVATE $<BUILD_INTERFACE:nadir_build_flags> ${arg_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY NADIR_LIBRARIES nadir_${name})
+endfunction()
+
+# nadir_add_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program
+function(nadir_add_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE nadir_build_flags ${arg_LIBRARIES} GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE NADIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

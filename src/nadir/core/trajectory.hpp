@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "nadir/core/frames.hpp"
+#include "nadir/core/stamp.hpp"
+
+namespace nadir {
+
+/// A pose of the robot in the frame `In`, at an instant.
+template <class In>
+struct StampedPose {
+  Stamp stamp;
+  Transform2<In, frames::Robot> pose;
+};
+
+/// Poses of the robot in the frame `In`, with strictly increasing stamps.
+template <class In>
+using TrajectoryIn = std::vector<StampedPose<In>>;
+
+using Trajectory = TrajectoryIn<frames::Map>;
+using Odometry = TrajectoryIn<frames::Odom>;
+
+}  // namespace nadir

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "nadir/core/raster.hpp"
+
+namespace nadir {
+
+/// Reads PNG, JPEG, TIFF as 8-bit grey (1 channel) or RGB (3 channels, in that order).
+/// Throws Error (input) for a missing, truncated, non-image or Git LFS pointer file.
+Raster<std::uint8_t> read_image(const std::filesystem::path& path);
+
+/// Writes a PNG of 1 (grey), 3 (RGB) or 4 (RGBA) channels, atomically.
+void write_png(const std::filesystem::path& path, const Raster<std::uint8_t>& image);
+
+}  // namespace nadir

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nadir/core/orthomosaic.hpp"
+#include "nadir/core/trajectory.hpp"
+
+namespace nadir {
+
+/// A site: the sequence folder of docs/formats.md, opened. `sequence.yaml` has been read and every
+/// file that it names exists; images are read when asked for.
+struct Sequence {
+  struct LocalMap {
+    int number = 0;  ///< the frame number that `--frame` and `--frames` take
+    Stamp stamp;
+    std::filesystem::path image;
+  };
+
+  std::filesystem::path folder;
+  std::string name;
+  std::optional<std::filesystem::path> map;  ///< the global orthomosaic, where the site has one
+  std::vector<LocalMap> local_maps;          ///< by increasing stamp and number
+  std::optional<Odometry> odometry;
+  std::optional<Trajectory> truth;  ///< map_from_robot
+};
+
+/// Opens a site. Throws Error (input) that names file and line: no sequence.yaml, unknown key,
+/// missing file, no local map, stamps that do not increase.
+Sequence read_sequence(const std::filesystem::path& folder);
+
+/// Reads one frame: its local map and the odometry pose of its stamp, where there is one.
+Frame read_frame(const Sequence& sequence, const Sequence::LocalMap& local_map);
+
+/// Writes a site file by file; `finish` writes sequence.yaml last, so that a folder without it is
+/// unfinished. Nothing is left half-written.
+class SequenceWriter {
+ public:
+  SequenceWriter(std::filesystem::path folder, std::string name);
+  void write_map(const Orthomosaic& map);
+  void write_local_map(int number, Stamp stamp, const Orthomosaic& local);
+  void write_odometry(const Odometry& odometry);
+  void write_truth(const Trajectory& truth);
+  void finish();
+
+ private:
+  Sequence sequence_;
+};
+
+}  // namespace nadir

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "nadir/core/orthomosaic.hpp"
+#include "nadir/localization/particle_filter.hpp"
+#include "nadir/map_matching/matching.hpp"
+#include "nadir/map_matching/odometry.hpp"
+
+namespace nadir {
+
+struct LocalizerOptions {
+  MatchingOptions matching;
+  LocalizationOptions localization;
+  RegistrationOptions registration;
+
+  /// The protocol of the paper, section IV: see LocalizationOptions::paper().
+  static LocalizerOptions paper();
+};
+
+/// All options of a run, dotted by stage ("map_matching.score", "localization.temper").
+/// `options` must outlive the table.
+OptionTable option_table(LocalizerOptions& options);
+
+enum class EstimateStatus {
+  kOk,          ///< the local map was compared and the filter updated
+  kNoOverlap,   ///< too little of the local map lies in the map: predicted by odometry only
+  kNoTexture,   ///< the local map has nothing to compare: predicted only
+  kNoOdometry,  ///< no odometry and none could be registered: the cloud was only spread
+};
+std::string to_string(EstimateStatus status);
+
+/// What the localizer says after one frame.
+struct Estimate {
+  Stamp stamp;
+  Pose2 map_from_robot;       ///< mean of the heaviest cluster; always finite
+  PoseCovariance covariance;  ///< of that cluster: m^2, m rad, rad^2
+  EstimateStatus status = EstimateStatus::kOk;
+  double cluster_mass = 1.0;  ///< share of the weight in that cluster
+  int clusters = 1;
+  double effective_particles = 0;  ///< before resampling
+  double best_score = 0.0;         ///< of the particles; NaN where nothing was scored
+  double valid_weight = 0.0;       ///< of the best particle
+  bool resampled = false;
+};
+
+/// The whole of nadir in one class: odometry and local maps in, poses in the map out.
+class Localizer {
+ public:
+  Localizer(const Orthomosaic& map, const LocalizerOptions& options, std::uint64_t seed = 0);
+
+  /// Starts the filter with particles uniform in a square and a range of headings around `prior`.
+  void start_near(const Pose2& prior, const Spread& spread);
+
+  /// Takes one frame; frames come in the order of their stamps. Throws Error (input) for a
+  /// non-finite odometry or a stamp that does not increase; Error (usage) before start_near().
+  Estimate update(const Frame& frame);
+
+  /// The particles after the last update.
+  const ParticleSet& particles() const { return filter_.particles(); }
+
+ private:
+  LocalizerOptions options_;
+  MapIndex map_;
+  ParticleFilter filter_;
+  MotionSource motion_;
+  std::optional<Stamp> last_stamp_;
+};
+
+}  // namespace nadir

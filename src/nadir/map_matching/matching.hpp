@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nadir/core/frames.hpp"
+#include "nadir/core/orthomosaic.hpp"
+#include "nadir/core/score_volume.hpp"
+#include "nadir/map_matching/options.hpp"
+
+namespace nadir {
+
+/// The image that scores compare, derived from an orthomosaic and resampled to the common
+/// resolution: 8-bit grey values (a high-pass is offset by 128) and which of them are valid (1) or
+/// holes (0). The grey value of a hole is 0.
+struct ChannelImage {
+  Raster<std::uint8_t> value;
+  Raster<std::uint8_t> valid;
+  GeoReference geo;
+};
+
+/// The global map, prepared once for any number of matches.
+class MapIndex {
+ public:
+  /// Resamples to `options.resolution_m` (area average) and derives the channel.
+  /// Throws Error (input) for an empty map, one without a valid pixel, or one whose image and mask
+  /// differ in size.
+  MapIndex(const Orthomosaic& map, const MatchingOptions& options);
+
+  const ChannelImage& channel() const { return channel_; }
+  const MatchingOptions& options() const { return options_; }
+
+ private:
+  MatchingOptions options_;
+  ChannelImage channel_;
+};
+
+/// A local map, prepared to be matched: the same channel at the same resolution. Its geo-reference
+/// places it in the robot frame.
+struct Template {
+  ChannelImage channel;
+  double valid_share = 0.0;  ///< valid pixels / all pixels
+};
+
+/// Prepares a local map for `map`. Throws Error (input) where image and mask differ in size or the
+/// image is empty.
+Template make_template(const Orthomosaic& local, const MatchingOptions& options);
+
+/// Where to look for the robot. Default: the whole map at one heading.
+struct SearchRegion {
+  /// Centre of the square of robot positions, map frame; absent = every position in the map.
+  std::optional<Point2<frames::Map>> centre;
+  double half_size_m = 5.0;            ///< half the side of that square
+  double yaw_rad = 0.0;                ///< the middle heading
+  double yaw_half_range_rad = 0.0;     ///< pi = every heading
+  std::optional<double> yaw_step_rad;  ///< default: MatchingOptions::yaw_step_deg
+};
+
+enum class MatchStatus {
+  kOk,
+  kAmbiguous,  ///< another place scores nearly as well (peak ratio)
+  kNoOverlap,  ///< nowhere was enough of the template's weight compared
+  kNoTexture,  ///< enough was compared, but a variance was too small for a score
+};
+std::string to_string(MatchStatus status);
+
+struct MatchCandidate {
+  Pose2 map_from_robot;
+  double score = 0.0;
+  double valid_weight = 0.0;  ///< share of the template's weight that was compared
+};
+
+struct MatchResult {
+  MatchStatus status = MatchStatus::kNoOverlap;
+  /// Local maxima, best first, refined below the pixel, at least `peak_separation_m` apart.
+  std::vector<MatchCandidate> candidates;
+  /// Second-best score over the best, each above the median of the volume; 0 where there is one
+  /// candidate only, 1 where they are equal.
+  double peak_ratio = 0.0;
+  ScoreVolume volume;
+};
+
+/// Scores every robot position of the region at every heading.
+MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region);
+
+/// A score of one pose; NaN where it is undefined.
+struct PoseScore {
+  double score = 0.0;
+  double valid_weight = 0.0;
+};
+
+/// Scores given poses exactly: the map is sampled (bilinear) under every template pixel.
+std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
+                                   std::span<const Pose2> map_from_robot);
+
+}  // namespace nadir

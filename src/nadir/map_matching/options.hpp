@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "nadir/core/options.hpp"
+
+namespace nadir {
+
+/// How alike two patches are. Definitions: docs/scores.md and map_matching/reference/scores.hpp.
+/// Larger is better for every one of them: the distances are returned negated.
+enum class Score {
+  kSsd,        ///< mean squared difference, negated
+  kSad,        ///< mean absolute difference, negated
+  kNcc,        ///< cosine, masked, no mean removed (what the authors' scripts call NCC)
+  kWncc,       ///< the same with weight [4], normalised distances, in the numerator only
+  kWnccPaper,  ///< equation [5] as printed
+  kZncc,       ///< masked zero-mean NCC
+  kZwncc,      ///< masked zero-mean NCC, weighted in means and norms too
+};
+inline constexpr std::array<std::pair<Score, const char*>, 7> kScoreNames{
+    {{Score::kSsd, "ssd"},
+     {Score::kSad, "sad"},
+     {Score::kNcc, "ncc"},
+     {Score::kWncc, "wncc"},
+     {Score::kWnccPaper, "wncc_paper"},
+     {Score::kZncc, "zncc"},
+     {Score::kZwncc, "zwncc"}}};
+std::string to_string(Score score);
+
+/// What a hole is to `ssd` and `sad`.
+enum class HoleTreatment { kMasked, kWhite };
+inline constexpr std::array<std::pair<HoleTreatment, const char*>, 2> kHoleTreatmentNames{
+    {{HoleTreatment::kMasked, "masked"}, {HoleTreatment::kWhite, "white"}}};
+
+/// Equation [4] in raw pixels as printed, or with distances normalised by the half sides.
+enum class PaperWeight { kLiteral, kNormalised };
+inline constexpr std::array<std::pair<PaperWeight, const char*>, 2> kPaperWeightNames{
+    {{PaperWeight::kLiteral, "literal"}, {PaperWeight::kNormalised, "normalised"}}};
+
+/// Which derived 8-bit image is compared.
+enum class Channel { kAuto, kGrey, kHighPass };
+inline constexpr std::array<std::pair<Channel, const char*>, 3> kChannelNames{
+    {{Channel::kAuto, "auto"}, {Channel::kGrey, "grey"}, {Channel::kHighPass, "high_pass"}}};
+
+enum class Backend { kCpu, kReference };
+inline constexpr std::array<std::pair<Backend, const char*>, 2> kBackendNames{
+    {{Backend::kCpu, "cpu"}, {Backend::kReference, "reference"}}};
+
+struct MatchingOptions {
+  Score score = Score::kZwncc;
+  Channel channel = Channel::kAuto;
+  HoleTreatment holes = HoleTreatment::kMasked;
+  PaperWeight paper_weight = PaperWeight::kLiteral;
+  Backend backend = Backend::kCpu;
+  double resolution_m = 0.10;
+  double high_pass_sigma_m = 1.5;
+  double min_valid_weight = 0.6;
+  double yaw_step_deg = 1.0;
+  int candidates = 10;
+  double peak_separation_m = 1.0;
+  double ambiguous_peak_ratio = 0.95;
+
+  /// The channel that is compared: `kAuto` is the high-pass for the zero-mean scores, grey else.
+  Channel effective_channel() const;
+};
+
+void declare(OptionTable& table, MatchingOptions& options);
+
+}  // namespace nadir

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nadir/core/frames.hpp"
+#include "nadir/core/orthomosaic.hpp"
+#include "nadir/core/raster.hpp"
+#include "nadir/core/score_volume.hpp"
+#include "nadir/core/trajectory.hpp"
+
+namespace nadir {
+
+/// A figure: 8-bit RGB.
+using Figure = Raster<std::uint8_t>;
+
+struct Track {
+  std::string name;  ///< for the legend
+  Trajectory trajectory;
+};
+
+/// The map with tracks on it (the paper's Fig. 9), cropped to what is of interest; legend, scale
+/// bar, north arrow. The first track is drawn last, on top.
+Figure draw_trajectories(const Orthomosaic& map, const std::vector<Track>& tracks,
+                         const std::string& title);
+
+struct Swarm {
+  std::string label;  ///< e.g. "frame 170"
+  std::vector<Pose2> particles;
+  std::vector<double> weights;  ///< same length; sum 1
+  Pose2 estimate;
+  std::optional<Pose2> truth;
+};
+
+/// The particle swarm at several instants on one map (the paper's Fig. 8), with an inset per
+/// instant that is large enough to see the cloud.
+Figure draw_swarms(const Orthomosaic& map, const std::vector<Swarm>& swarms,
+                   const std::string& title);
+
+/// The outline of a local map at a pose: width and height in metres of the square seen, in the
+/// robot frame's geo-reference.
+struct Footprint {
+  Pose2 map_from_robot;
+  GeoReference geo;  ///< of the local map, robot frame
+  int width = 0;     ///< pixels
+  int height = 0;
+};
+
+struct HeatMap {
+  const ScoreVolume* volume = nullptr;  ///< best over headings is drawn
+  Footprint found;                      ///< white
+  std::optional<Footprint> truth;       ///< blue
+  bool whole_map = false;               ///< no red search window where the whole map was searched
+  std::string title;
+};
+
+/// The score heat map over the map with search window (red), truth (blue) and found place (white)
+/// as boxes, colour bar, scale bar (the paper's Figs. 6 and 7); beside it the local map and the
+/// map patch under the found pose.
+Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const HeatMap& heat_map);
+
+/// One curve of a time plot.
+struct Curve {
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;  ///< NaN leaves a gap
+};
+
+/// Stacked panels that share their x axis: error, yaw error, N_eff, …
+struct Panel {
+  std::string y_label;
+  std::vector<Curve> curves;
+};
+Figure draw_panels(const std::vector<Panel>& panels, const std::string& x_label,
+                   const std::string& title);
+
+/// The frames and raster conventions of docs/conventions.md.
+Figure draw_conventions();
+
+}  // namespace nadir
