@@ -66,8 +66,7 @@ class Localizer {
   LocalizerOptions options_;
   MapIndex map_;
   ParticleFilter filter_;
-  MotionSource motion_;
-  std::optional<Stamp> last_stamp_;
+  std::optional<Frame> previous_;
 };
 
 }  // namespace nadir
