@@ -14,6 +14,7 @@ constexpr std::uint8_t kSeen = 255;
 constexpr int kBlackest = 4;         ///< brightest value of the unseen, after JPEG
 constexpr int kWhitest = 250;        ///< darkest value of a hole, after JPEG
 constexpr int kLargestShadow = 400;  ///< pixels; larger black regions are unseen
+constexpr int kFringe = 2;           ///< pixels beside the unseen that JPEG mixed with black
 
 /// A mask over the pixels, from the extreme value of each pixel's channels.
 template <class Predicate>
@@ -62,12 +63,16 @@ Raster<std::uint8_t> seen_by_drone(const Raster<std::uint8_t>& image) {
         statistics.at<int>(region, cv::CC_STAT_AREA) > kLargestShadow ||
         touches_border(statistics, region, image);
   }
-  Raster<std::uint8_t> seen(image.width(), image.height(), kSeen);
   for (int row = 0; row < image.height(); ++row) {
     for (int column = 0; column < image.width(); ++column) {
-      if (unseen[static_cast<std::size_t>(regions.at<int>(row, column))]) seen.at(column, row) = 0;
+      const auto region = static_cast<std::size_t>(regions.at<int>(row, column));
+      black.at(column, row) = unseen[region] ? 0 : kSeen;
     }
   }
+  Raster<std::uint8_t> seen(image.width(), image.height());
+  cv::Mat result(image.height(), image.width(), CV_8UC1, seen.values().data());
+  constexpr int kSide = 2 * kFringe + 1;
+  cv::erode(view, result, cv::Mat::ones(kSide, kSide, CV_8UC1));
   return seen;
 }
 

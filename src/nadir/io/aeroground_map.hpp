@@ -12,7 +12,7 @@ Raster<std::uint8_t> without_equal_channels(Raster<std::uint8_t> image);
 
 /// 255 where the drone saw something. The data set marks the unseen by black, which JPEG blurs;
 /// dark asphalt is black here and there too. So black is unseen only in regions that touch the
-/// border of the image or are larger than a shadow's core.
+/// border of the image or are larger than a shadow's core, and two pixels around those.
 Raster<std::uint8_t> seen_by_drone(const Raster<std::uint8_t>& image);
 
 /// 255 where the robot saw something: a hole is white, blurred by JPEG.
