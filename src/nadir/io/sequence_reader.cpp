@@ -152,6 +152,7 @@ Sequence read_sequence(const path& folder) {
   Sequence sequence;
   sequence.folder = folder;
   sequence.name = text_at(root, "name", index.file);
+  if (sequence.name.empty()) throw index.error(root, "the site has no 'name'", "add one");
   sequence.map = file_at(root, "map", index);
   sequence.calibration = file_at(root, "calibration", index);
   sequence.local_maps = read_local_maps(root["local_maps"], index);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/io/yaml_file.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "nadir/core/options.hpp"
@@ -45,13 +46,16 @@ void check_keys(const YAML::Node& node, std::span<const std::string> known,
 
 std::string text_at(const YAML::Node& map, const std::string& key,
                     const std::filesystem::path& path) {
-  const YAML::Node value = map[key];
-  if (!value) return {};
-  if (!value.IsScalar() || value.Scalar().empty()) {
-    throw Error(ErrorKind::kInput, "'" + key + "' must be one text or number",
-                place_of(value, path), "see docs/formats.md");
+  for (const auto& entry : map) {
+    if (entry.first.Scalar() != key) continue;
+    if (!entry.second.IsScalar() || entry.second.Scalar().empty()) {
+      throw Error(ErrorKind::kInput, "'" + key + "' must be one text or number",
+                  // the mark of a missing value is that of the line after it
+                  place_of(entry.first, path), "see docs/formats.md");
+    }
+    return entry.second.Scalar();
   }
-  return value.Scalar();
+  return {};
 }
 
 }  // namespace nadir
