@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Every third party is looked for here and nowhere else. No downloads.
+# What a library of nadir links must also be known to NadirInstall.cmake.
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
@@ -8,16 +9,24 @@ find_package(GDAL 3.4 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256
 include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, nadir_opencv_imgcodecs
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
 endif()
 if(NADIR_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   include(GoogleTest)
 endif()
 if(NADIR_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
+endif()
+
+# yaml-cpp before 0.8 names its target without a namespace, later releases with one.
+if(NOT TARGET yaml-cpp AND TARGET yaml-cpp::yaml-cpp)
+  add_library(yaml-cpp INTERFACE IMPORTED)
+  target_link_libraries(yaml-cpp INTERFACE yaml-cpp::yaml-cpp)
 endif()
 
 # pocketfft (BSD, header-only), as Debian ships it inside gemmi-dev or wherever the user has it.
@@ -25,6 +34,13 @@ find_path(POCKETFFT_INCLUDE_DIR pocketfft_hdronly.h PATH_SUFFIXES gemmi/third_pa
 if(NOT POCKETFFT_INCLUDE_DIR)
   message(FATAL_ERROR "pocketfft_hdronly.h not found: install gemmi-dev or set POCKETFFT_INCLUDE_DIR")
 endif()
-add_library(nadir_pocketfft INTERFACE)
-target_include_directories(nadir_pocketfft SYSTEM INTERFACE ${POCKETFFT_INCLUDE_DIR})
+add_library(nadir_pocketfft INTERFACE IMPORTED)
+target_include_directories(nadir_pocketfft INTERFACE ${POCKETFFT_INCLUDE_DIR})
 target_link_libraries(nadir_pocketfft INTERFACE Threads::Threads)
+
+# A project that takes nadir by add_subdirectory links our libraries from its own folders, where
+# imported targets of ours would otherwise be unknown.
+get_property(nadir_third_parties DIRECTORY PROPERTY IMPORTED_TARGETS)
+foreach(target IN LISTS nadir_third_parties)
+  set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
+endforeach()
