@@ -23,12 +23,6 @@ if(NADIR_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
 
-# yaml-cpp before 0.8 names its target without a namespace, later releases with one.
-if(NOT TARGET yaml-cpp AND TARGET yaml-cpp::yaml-cpp)
-  add_library(yaml-cpp INTERFACE IMPORTED)
-  target_link_libraries(yaml-cpp INTERFACE yaml-cpp::yaml-cpp)
-endif()
-
 # pocketfft (BSD, header-only), as Debian ships it inside gemmi-dev or wherever the user has it.
 find_path(POCKETFFT_INCLUDE_DIR pocketfft_hdronly.h PATH_SUFFIXES gemmi/third_party pocketfft)
 if(NOT POCKETFFT_INCLUDE_DIR)

@@ -23,6 +23,7 @@ function(nadir_add_library name)
   add_library(nadir_${name} ${arg_SOURCES})
   add_library(nadir::${name} ALIAS nadir_${name})
   set_target_properties(nadir_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+                        INSTALL_RPATH $ORIGIN  # shared libraries find each other wherever they are
                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(nadir_${name} PUBLIC cxx_std_20)
   target_include_directories(nadir_${name} PUBLIC

@@ -54,4 +54,4 @@ fi
 echo "install-deps: installing ${missing[*]}"
 "${as_root[@]}" apt-get update -qq
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -qq -y --no-install-recommends "${missing[@]}"
+  apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
