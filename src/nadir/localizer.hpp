@@ -63,10 +63,14 @@ class Localizer {
   const ParticleSet& particles() const { return filter_.particles(); }
 
  private:
+  /// From the odometry where both frames have it, else by registering the local maps.
+  std::optional<Motion2> motion_since_previous(const Frame& frame) const;
+
   LocalizerOptions options_;
   MapIndex map_;
   ParticleFilter filter_;
   std::optional<Frame> previous_;
+  Motion2 last_motion_;  ///< stands in where a motion is missing
 };
 
 }  // namespace nadir

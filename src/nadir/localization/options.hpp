@@ -41,6 +41,9 @@ struct LocalizationOptions {
   double yaw_noise_deg_per_deg = 0.1;
   double yaw_noise_floor_deg = 0.2;
 
+  double odometry_scale_sigma = 0.05;
+  double odometry_scale_walk = 0.01;
+
   double roughening_m = 0.0;
   double roughening_deg = 0.0;
 

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "nadir/core/frames.hpp"
+#include "nadir/core/random.hpp"
+#include "nadir/localization/clusters.hpp"
 #include "nadir/localization/options.hpp"
+#include "nadir/localization/particle_set.hpp"
 
 namespace nadir {
 
@@ -16,28 +19,17 @@ struct Spread {
   double yaw_rad = radians(5.0);
 };
 
-/// Weighted hypotheses of where the robot is. The weights sum to 1.
-struct ParticleSet {
-  std::vector<Pose2> poses;  ///< map_from_robot
-  std::vector<double> weights;
-};
-
-/// A group of particles that hang together in (x, y, yaw).
-struct Cluster {
-  double mass = 0.0;  ///< sum of its weights
-  Pose2 mean;         ///< weighted; circular in yaw
-  PoseCovariance covariance = PoseCovariance::Zero();
-};
-
 /// A particle filter over SE(2). Random numbers are a pure function of (seed, step, particle).
 class ParticleFilter {
  public:
   ParticleFilter(const LocalizationOptions& options, std::uint64_t seed);
 
+  /// Throws Error (usage) for a prior or a spread that is not finite, or a negative spread.
   void start_near(const Pose2& prior, const Spread& spread);
-  bool started() const { return !particles_.poses.empty(); }
+  bool started() const { return particles_.size() > 0; }
 
-  /// Moves every particle by the odometry increment and its noise.
+  /// Moves every particle by the odometry increment, scaled by its own estimate of the odometry's
+  /// scale, and by the noise of the motion. `motion` must be finite.
   void predict(const Motion2& motion);
   /// Weighs every particle by its score; NaN = the pose could not be compared. Returns false, and
   /// leaves the weights as they were, where no score is defined.
@@ -47,10 +39,16 @@ class ParticleFilter {
 
   double effective_particles() const;
   /// Clusters by falling mass; one, of all particles, where clustering is off.
-  std::vector<Cluster> clusters() const;
+  std::vector<Cluster> clusters() const { return find_clusters(particles_, options_); }
   const ParticleSet& particles() const { return particles_; }
 
  private:
+  /// What a random number is for: each purpose of each step has a stream of its own.
+  enum class Purpose : std::uint64_t { kStart, kMotion, kScale, kResample, kRoughen, kCount };
+  RandomStream stream(Purpose purpose) const;
+  void resample(std::size_t count);
+  void roughen();
+
   LocalizationOptions options_;
   std::uint64_t seed_;
   std::uint64_t step_ = 0;

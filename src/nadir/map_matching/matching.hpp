@@ -10,13 +10,14 @@
 #include "nadir/core/frames.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/score_volume.hpp"
+#include "nadir/map_matching/cpu/quads.hpp"
 #include "nadir/map_matching/options.hpp"
 
 namespace nadir {
 
 /// The image that scores compare, derived from an orthomosaic and resampled to the common
 /// resolution: 8-bit grey values (a high-pass is offset by 128) and which of them are valid (1) or
-/// holes (0). The grey value of a hole is 0.
+/// holes (0). Valid pixels have values from 1 to 255, holes have 0.
 struct ChannelImage {
   Raster<std::uint8_t> value;
   Raster<std::uint8_t> valid;
@@ -33,10 +34,14 @@ class MapIndex {
 
   const ChannelImage& channel() const { return channel_; }
   const MatchingOptions& options() const { return options_; }
+  double mean_grey() const { return mean_grey_; }  ///< of the channel's valid pixels
+  const Quads& quads() const { return quads_; }    ///< the channel, packed for bilinear sampling
 
  private:
   MatchingOptions options_;
   ChannelImage channel_;
+  double mean_grey_ = 0.0;
+  Quads quads_;
 };
 
 /// A local map, prepared to be matched: the same channel at the same resolution. Its geo-reference
@@ -78,8 +83,8 @@ struct MatchResult {
   MatchStatus status = MatchStatus::kNoOverlap;
   /// Local maxima, best first, refined below the pixel, at least `peak_separation_m` apart.
   std::vector<MatchCandidate> candidates;
-  /// Second-best score over the best, each above the median of the volume; 0 where there is one
-  /// candidate only, 1 where they are equal.
+  /// How far the second-best place rises above the median score of the volume, as a share of how
+  /// far the best does: 0 where there is one place only, 1 where two are equal.
   double peak_ratio = 0.0;
   ScoreVolume volume;
 };

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/localization/particle_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nadir/core/error.hpp"
+#include "nadir/localization/resampling.hpp"
+
+namespace nadir {
+namespace {
+
+/// Turns log weights (or -infinity) into weights that sum to 1; false where all have vanished.
+bool normalise_log_weights(std::vector<double>& log_weights) {
+  const double largest = *std::max_element(log_weights.begin(), log_weights.end());
+  if (!std::isfinite(largest)) return false;
+  double sum = 0.0;
+  for (double& weight : log_weights) {
+    weight = std::exp(weight - largest);
+    sum += weight;
+  }
+  for (double& weight : log_weights) weight /= sum;
+  return true;
+}
+
+/// NaN where no score is defined.
+double lowest_defined(std::span<const double> scores) {
+  double lowest = std::numeric_limits<double>::quiet_NaN();
+  for (const double score : scores) {
+    if (!std::isnan(score) && !(score >= lowest)) lowest = score;
+  }
+  return lowest;
+}
+
+}  // namespace
+
+ParticleFilter::ParticleFilter(const LocalizationOptions& options, std::uint64_t seed)
+    : options_(options), seed_(seed) {}
+
+RandomStream ParticleFilter::stream(Purpose purpose) const {
+  return {seed_, step_ * static_cast<std::uint64_t>(Purpose::kCount) +
+                     static_cast<std::uint64_t>(purpose)};
+}
+
+void ParticleFilter::start_near(const Pose2& prior, const Spread& spread) {
+  if (!prior.is_finite() || !std::isfinite(spread.position_m) || !std::isfinite(spread.yaw_rad) ||
+      spread.position_m < 0.0 || spread.yaw_rad < 0.0) {
+    throw Error(ErrorKind::kUsage,
+                "the prior needs a finite x, y and yaw and a spread that is not negative");
+  }
+  step_ = 0;
+  const auto count = static_cast<std::size_t>(options_.particles);
+  particles_.poses.resize(count);
+  particles_.odometry_scales.resize(count);
+  particles_.weights.assign(count, 1.0 / static_cast<double>(count));
+  const RandomStream random = stream(Purpose::kStart);
+  const RandomStream scale = stream(Purpose::kScale);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [x, y] = random.uniform_pair(2 * i);
+    const double yaw = random.uniform(2 * i + 1);
+    particles_.poses[i] = {prior.x + spread.position_m * (2.0 * x - 1.0),
+                           prior.y + spread.position_m * (2.0 * y - 1.0),
+                           wrap_angle(prior.yaw + spread.yaw_rad * (2.0 * yaw - 1.0))};
+    particles_.odometry_scales[i] = 1.0 + options_.odometry_scale_sigma * scale.normal(i);
+  }
+}
+
+void ParticleFilter::predict(const Motion2& motion) {
+  ++step_;
+  const double travel = std::hypot(motion.x, motion.y);
+  const double position_sigma =
+      std::hypot(options_.position_noise_per_m * travel, options_.position_noise_floor_m);
+  const double yaw_sigma =
+      radians(std::hypot(options_.yaw_noise_deg_per_m * travel,
+                         options_.yaw_noise_deg_per_deg * degrees(std::abs(motion.yaw)),
+                         options_.yaw_noise_floor_deg));
+  const double scale_sigma = options_.odometry_scale_walk * std::sqrt(travel);
+  const RandomStream noise = stream(Purpose::kMotion);
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const auto [along, across] = noise.normal_pair(2 * i);
+    const auto [turn, scale] = noise.normal_pair(2 * i + 1);
+    particles_.odometry_scales[i] += scale_sigma * scale;
+    const double s = particles_.odometry_scales[i];
+    particles_.poses[i] = particles_.poses[i] * Motion2{s * motion.x + position_sigma * along,
+                                                        s * motion.y + position_sigma * across,
+                                                        motion.yaw + yaw_sigma * turn};
+  }
+}
+
+bool ParticleFilter::weigh(std::span<const double> scores) {
+  const double lowest = lowest_defined(scores);
+  if (std::isnan(lowest)) return false;
+  std::vector<double> log_weights(particles_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    // A pose that could not be compared is no better than the worst that could.
+    const double score = std::isnan(scores[i]) ? lowest : scores[i];
+    const double gain = options_.likelihood == Likelihood::kTempered
+                            ? options_.temper * score
+                            : std::log(std::max(score, 0.0));
+    log_weights[i] = std::log(particles_.weights[i]) + gain;
+  }
+  if (!normalise_log_weights(log_weights)) return false;
+  particles_.weights = std::move(log_weights);
+  return true;
+}
+
+bool ParticleFilter::resample_if_needed() {
+  const auto count = static_cast<double>(particles_.size());
+  const bool always = options_.resample_below >= 1.0;
+  if (!always && effective_particles() >= options_.resample_below * count) return false;
+  resample(options_.adaptive ? kld_particles(particles_, options_)
+                             : static_cast<std::size_t>(options_.particles));
+  roughen();
+  return true;
+}
+
+void ParticleFilter::resample(std::size_t count) {
+  const std::vector<std::size_t> indices =
+      draw_indices(options_.resampling, particles_.weights, count, stream(Purpose::kResample));
+  ParticleSet drawn;
+  for (const std::size_t index : indices) {
+    drawn.poses.push_back(particles_.poses[index]);
+    drawn.odometry_scales.push_back(particles_.odometry_scales[index]);
+  }
+  drawn.weights.assign(count, 1.0 / static_cast<double>(count));
+  particles_ = std::move(drawn);
+}
+
+void ParticleFilter::roughen() {
+  if (options_.roughening_m <= 0.0 && options_.roughening_deg <= 0.0) return;
+  const RandomStream noise = stream(Purpose::kRoughen);
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    Pose2& pose = particles_.poses[i];
+    const auto [x, y] = noise.normal_pair(2 * i);
+    pose.x += options_.roughening_m * x;
+    pose.y += options_.roughening_m * y;
+    pose.yaw = wrap_angle(pose.yaw + radians(options_.roughening_deg) * noise.normal(2 * i + 1));
+  }
+}
+
+double ParticleFilter::effective_particles() const {
+  return effective_sample_size(particles_.weights);
+}
+
+}  // namespace nadir

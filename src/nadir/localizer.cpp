@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nadir/core/error.hpp"
+
+namespace nadir {
+namespace {
+
+/// The best particle of a frame: NaN where none could be compared.
+PoseScore best_of(const std::vector<PoseScore>& scores) {
+  PoseScore best{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  for (const PoseScore& score : scores) {
+    if (!(score.score <= best.score) && !std::isnan(score.score)) best = score;
+  }
+  return best;
+}
+
+EstimateStatus why_not(const std::vector<PoseScore>& scores, double min_valid_weight) {
+  const bool overlap = std::any_of(scores.begin(), scores.end(), [=](const PoseScore& score) {
+    return score.valid_weight >= min_valid_weight;
+  });
+  return overlap ? EstimateStatus::kNoTexture : EstimateStatus::kNoOverlap;
+}
+
+void check(const Frame& frame, const std::optional<Frame>& previous) {
+  if (frame.odom_from_robot && !frame.odom_from_robot->is_finite()) {
+    throw Error(ErrorKind::kInput, "the odometry is not finite",
+                "frame at " + to_string(frame.stamp) + " s");
+  }
+  if (previous && frame.stamp <= previous->stamp) {
+    throw Error(
+        ErrorKind::kInput,
+        "the stamp does not come after the one before, " + to_string(previous->stamp) + " s",
+        "frame at " + to_string(frame.stamp) + " s");
+  }
+}
+
+}  // namespace
+
+std::string to_string(EstimateStatus status) {
+  switch (status) {
+    case EstimateStatus::kOk:
+      return "ok";
+    case EstimateStatus::kNoOverlap:
+      return "no_overlap";
+    case EstimateStatus::kNoTexture:
+      return "no_texture";
+    case EstimateStatus::kNoOdometry:
+      return "no_odometry";
+  }
+  return {};
+}
+
+LocalizerOptions LocalizerOptions::paper() {
+  LocalizerOptions options;
+  options.matching.score = Score::kWncc;
+  options.matching.channel = Channel::kGrey;
+  options.localization = LocalizationOptions::paper();
+  return options;
+}
+
+OptionTable option_table(LocalizerOptions& options) {
+  OptionTable table;
+  declare(table, options.matching);
+  declare(table, options.localization);
+  declare(table, options.registration);
+  return table;
+}
+
+Localizer::Localizer(const Orthomosaic& map, const LocalizerOptions& options, std::uint64_t seed)
+    : options_(options), map_(map, options.matching), filter_(options.localization, seed) {}
+
+void Localizer::start_near(const Pose2& prior, const Spread& spread) {
+  filter_.start_near(prior, spread);
+  previous_.reset();
+}
+
+Estimate Localizer::update(const Frame& frame) {
+  if (!filter_.started()) throw Error(ErrorKind::kUsage, "the localizer was not started");
+  check(frame, previous_);
+
+  Estimate estimate;
+  estimate.stamp = frame.stamp;
+  const std::optional<Motion2> motion = motion_since_previous(frame);
+  if (previous_) filter_.predict(motion.value_or(last_motion_));
+  if (motion) last_motion_ = *motion;
+  if (!motion) estimate.status = EstimateStatus::kNoOdometry;
+
+  const Template local = make_template(frame.local, options_.matching);
+  const std::vector<PoseScore> scores = score_poses(map_, local, filter_.particles().poses);
+  std::vector<double> values;
+  for (const PoseScore& score : scores) values.push_back(score.score);
+  const bool weighed = filter_.weigh(values);
+  if (!weighed) estimate.status = why_not(scores, options_.matching.min_valid_weight);
+
+  const PoseScore best = best_of(scores);
+  estimate.best_score = best.score;
+  estimate.valid_weight = best.valid_weight;
+  estimate.effective_particles = filter_.effective_particles();
+  const std::vector<Cluster> clusters = filter_.clusters();
+  estimate.map_from_robot = clusters.front().mean;
+  estimate.covariance = clusters.front().covariance;
+  estimate.cluster_mass = clusters.front().mass;
+  estimate.clusters = static_cast<int>(clusters.size());
+  if (weighed) estimate.resampled = filter_.resample_if_needed();
+  previous_ = frame;
+  return estimate;
+}
+
+std::optional<Motion2> Localizer::motion_since_previous(const Frame& frame) const {
+  if (!previous_) return Motion2{};
+  if (frame.odom_from_robot && previous_->odom_from_robot) {
+    return previous_->odom_from_robot->inverse() * *frame.odom_from_robot;
+  }
+  return register_local_maps(previous_->local, frame.local, options_.registration);
+}
+
+}  // namespace nadir

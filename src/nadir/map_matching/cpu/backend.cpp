@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+
+#include "nadir/map_matching/cpu/closed_form_surface.hpp"
+#include "nadir/map_matching/cpu/paper_surface.hpp"
+#include "nadir/map_matching/cpu/pose_scorer.hpp"
+#include "nadir/map_matching/cpu/sad_surface.hpp"
+#include "nadir/map_matching/surface.hpp"
+
+namespace nadir {
+namespace {
+
+/// One pose by the reference: scores without closed form, and holes that take part.
+std::vector<PoseScore> score_one_by_one(const MapIndex& map, const Template& local,
+                                        std::span<const Pose2> poses) {
+  std::vector<PoseScore> scores(poses.size());
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
+    scores[i] = reference_backend().score_poses(map, local, poses.subspan(i, 1)).front();
+  });
+  return scores;
+}
+
+class CpuBackend : public MatchingBackend {
+ public:
+  std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
+                                           std::span<const RotatedTemplate> templates,
+                                           const PixelWindow& window) const override {
+    if (templates.empty() || window.width <= 0 || window.height <= 0) return {};
+    const MatchingOptions& options = map.options();
+    const cpu::Region region =
+        cpu::cut_region(map.channel(), templates, window, pixel_role(options).whole_square);
+    if (options.score == Score::kSad) return cpu::sad_surfaces(options, region, templates, window);
+    if (options.score == Score::kWnccPaper) {
+      return cpu::paper_surfaces(options, region, templates, window);
+    }
+    return cpu::closed_form_surfaces(options, region, templates, window);
+  }
+
+  std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
+                                     std::span<const Pose2> poses) const override {
+    const MatchingOptions& options = map.options();
+    if (!cpu::is_closed_form(options.score) || pixel_role(options).whole_square) {
+      return score_one_by_one(map, local, poses);
+    }
+    const GeoReference& geo = map.channel().geo;
+    const cpu::PixelList pixels =
+        cpu::list_pixels(local.channel, options, geo.resolution, map.mean_grey());
+    std::vector<PoseScore> scores(poses.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          scores[i] = score_pose(map, pixels, poses[i]);
+                        }
+                      });
+    return scores;
+  }
+
+ private:
+  static PoseScore score_pose(const MapIndex& map, const cpu::PixelList& pixels,
+                              const Pose2& pose) {
+    PoseScore result{std::numeric_limits<double>::quiet_NaN(), 0.0};
+    const PixelCoordinate at = map.channel().geo.pixel_at(pose.x, pose.y);
+    // Far outside nothing can overlap, and an integer could overflow.
+    constexpr double kFarthest = 1e8;
+    if (!(std::abs(at.column) < kFarthest && std::abs(at.row) < kFarthest) ||
+        !std::isfinite(pose.yaw) || pixels.total_seen <= 0.0) {
+      return result;
+    }
+    const cpu::Sums sums =
+        cpu::sum_at(map.quads(), pixels,
+                    {at.column - 0.5, at.row - 0.5, std::cos(pose.yaw), std::sin(pose.yaw)});
+    result.valid_weight = sums.a / pixels.total_seen;
+    if (result.valid_weight < map.options().min_valid_weight) return result;
+    result.score = cpu::score_from_sums(map.options().score, sums, pixels.shifts);
+    return result;
+  }
+};
+
+}  // namespace
+
+const MatchingBackend& cpu_backend() {
+  static const CpuBackend backend;
+  return backend;
+}
+
+}  // namespace nadir

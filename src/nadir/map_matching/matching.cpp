@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/map_matching/matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nadir/core/error.hpp"
+#include "nadir/map_matching/channel.hpp"
+#include "nadir/map_matching/peaks.hpp"
+#include "nadir/map_matching/surface.hpp"
+
+namespace nadir {
+namespace {
+
+const MatchingBackend& backend_of(const MatchingOptions& options) {
+  return options.backend == Backend::kReference ? reference_backend() : cpu_backend();
+}
+
+/// The headings of a search: evenly spaced, the middle one among them; a full turn has no heading
+/// twice.
+std::vector<double> headings(const SearchRegion& region, double step) {
+  const double half_range = std::min(std::abs(region.yaw_half_range_rad), kPi);
+  if (half_range >= kPi - 1e-12) {
+    const auto count = static_cast<int>(std::lround(std::ceil(2.0 * kPi / step - 1e-9)));
+    std::vector<double> yaws;
+    for (int i = 0; i < count; ++i) {
+      yaws.push_back(region.yaw_rad + 2.0 * kPi * (i - count / 2) / count);
+    }
+    return yaws;
+  }
+  const int steps = static_cast<int>(std::floor(half_range / step + 1e-9));
+  std::vector<double> yaws;
+  for (int i = -steps; i <= steps; ++i) yaws.push_back(region.yaw_rad + i * step);
+  return yaws;
+}
+
+PixelWindow pixel_window(const ChannelImage& map, const SearchRegion& region) {
+  if (!region.centre) return {0, 0, map.value.width(), map.value.height()};
+  const PixelCoordinate centre = map.geo.pixel_at(region.centre->x, region.centre->y);
+  const double half = region.half_size_m / map.geo.resolution;
+  const auto first = [half](double middle) { return static_cast<int>(std::floor(middle - half)); };
+  const auto count = [half](double middle) {
+    return static_cast<int>(std::floor(middle + half)) -
+           static_cast<int>(std::floor(middle - half)) + 1;
+  };
+  return {first(centre.column), first(centre.row), count(centre.column), count(centre.row)};
+}
+
+void check(const SearchRegion& region, double step) {
+  const bool finite =
+      std::isfinite(region.yaw_rad) && std::isfinite(region.yaw_half_range_rad) &&
+      std::isfinite(region.half_size_m) &&
+      (!region.centre || (std::isfinite(region.centre->x) && std::isfinite(region.centre->y)));
+  if (!finite || region.half_size_m < 0.0 || !(step > 0.0)) {
+    throw Error(ErrorKind::kUsage,
+                "the search region needs a finite centre, heading and range, a size that is not "
+                "negative and a positive yaw step");
+  }
+  constexpr double kLargestHalfSize = 1e4;  // metres; beyond it the surfaces cannot be held
+  if (region.centre && region.half_size_m > kLargestHalfSize) {
+    throw Error(ErrorKind::kUsage, "the search window is larger than 20 km", {},
+                "leave out its centre to search the whole map");
+  }
+}
+
+/// Why nothing was scored: too little overlap everywhere, or too little contrast.
+MatchStatus failure(const ScoreVolume& volume, double min_valid_weight) {
+  for (const Raster<float>& surface : volume.valid_weight) {
+    for (const float share : surface.values()) {
+      if (share >= static_cast<float>(min_valid_weight)) return MatchStatus::kNoTexture;
+    }
+  }
+  return MatchStatus::kNoOverlap;
+}
+
+}  // namespace
+
+std::string to_string(MatchStatus status) {
+  switch (status) {
+    case MatchStatus::kOk:
+      return "ok";
+    case MatchStatus::kAmbiguous:
+      return "ambiguous";
+    case MatchStatus::kNoOverlap:
+      return "no_overlap";
+    case MatchStatus::kNoTexture:
+      return "no_texture";
+  }
+  return {};
+}
+
+MapIndex::MapIndex(const Orthomosaic& map, const MatchingOptions& options)
+    : options_(options), channel_(make_channel(map, options, "the map")) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < channel_.value.values().size(); ++i) {
+    sum += channel_.value.values()[i];
+    count += channel_.valid.values()[i];
+  }
+  if (count == 0.0) {
+    throw Error(ErrorKind::kInput, "the map has no valid pixel", {},
+                "check its mask, alpha band or nodata value");
+  }
+  mean_grey_ = sum / count;
+  quads_ = pack_quads(channel_.value, channel_.valid);
+}
+
+Template make_template(const Orthomosaic& local, const MatchingOptions& options) {
+  Template result{make_channel(local, options, "the local map")};
+  const auto& valid = result.channel.valid.values();
+  const auto seen = std::count_if(valid.begin(), valid.end(), [](auto v) { return v != 0; });
+  result.valid_share = static_cast<double>(seen) / static_cast<double>(valid.size());
+  return result;
+}
+
+MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region) {
+  const double step = region.yaw_step_rad.value_or(radians(map.options().yaw_step_deg));
+  check(region, step);
+  const PixelWindow window = pixel_window(map.channel(), region);
+  const GeoReference& geo = map.channel().geo;
+
+  MatchResult result;
+  result.volume.geo = geo;
+  result.volume.geo.west = geo.x_at(window.left);
+  result.volume.geo.north = geo.y_at(window.top);
+  result.volume.yaws = headings(region, step);
+  std::vector<RotatedTemplate> templates;
+  for (const double yaw : result.volume.yaws) {
+    templates.push_back(
+        rotate_template(local.channel, yaw, geo.resolution, pixel_role(map.options())));
+  }
+  for (ScoreSurface& surface : backend_of(map.options()).score_surfaces(map, templates, window)) {
+    result.volume.score.push_back(std::move(surface.score));
+    result.volume.valid_weight.push_back(std::move(surface.valid_weight));
+  }
+
+  result.candidates = find_peaks(result.volume, map.options());
+  if (result.candidates.empty()) {
+    result.status = failure(result.volume, map.options().min_valid_weight);
+    return result;
+  }
+  result.peak_ratio = peak_ratio(result.volume, result.candidates);
+  result.status = result.peak_ratio >= map.options().ambiguous_peak_ratio ? MatchStatus::kAmbiguous
+                                                                          : MatchStatus::kOk;
+  return result;
+}
+
+std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
+                                   std::span<const Pose2> map_from_robot) {
+  return backend_of(map.options()).score_poses(map, local, map_from_robot);
+}
+
+}  // namespace nadir

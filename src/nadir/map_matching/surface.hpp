@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nadir/map_matching/matching.hpp"
+#include "nadir/map_matching/rotated_template.hpp"
+
+namespace nadir {
+
+/// A rectangle of map pixels that the robot may stand on. It may reach beyond the map.
+struct PixelWindow {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Scores of one heading over a window: NaN where undefined.
+struct ScoreSurface {
+  Raster<float> score;
+  Raster<float> valid_weight;
+};
+
+/// What an implementation of map matching provides. Every backend is held to `reference`.
+class MatchingBackend {
+ public:
+  virtual ~MatchingBackend() = default;
+  /// One surface per template, all over the same window.
+  virtual std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
+                                                   std::span<const RotatedTemplate> templates,
+                                                   const PixelWindow& window) const = 0;
+  virtual std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
+                                             std::span<const Pose2> map_from_robot) const = 0;
+};
+
+const MatchingBackend& reference_backend();
+const MatchingBackend& cpu_backend();
+
+}  // namespace nadir
