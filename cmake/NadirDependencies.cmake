@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Every third party is looked for here and nowhere else. No downloads.
+# What a library of nadir links must also be known to NadirInstall.cmake.
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
@@ -16,6 +17,7 @@ if(NADIR_BUILD_APPS)
 endif()
 if(NADIR_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   include(GoogleTest)
 endif()
 if(NADIR_BUILD_BENCHMARKS)
@@ -27,6 +29,13 @@ find_path(POCKETFFT_INCLUDE_DIR pocketfft_hdronly.h PATH_SUFFIXES gemmi/third_pa
 if(NOT POCKETFFT_INCLUDE_DIR)
   message(FATAL_ERROR "pocketfft_hdronly.h not found: install gemmi-dev or set POCKETFFT_INCLUDE_DIR")
 endif()
-add_library(nadir_pocketfft INTERFACE)
-target_include_directories(nadir_pocketfft SYSTEM INTERFACE ${POCKETFFT_INCLUDE_DIR})
+add_library(nadir_pocketfft INTERFACE IMPORTED)
+target_include_directories(nadir_pocketfft INTERFACE ${POCKETFFT_INCLUDE_DIR})
 target_link_libraries(nadir_pocketfft INTERFACE Threads::Threads)
+
+# A project that takes nadir by add_subdirectory links our libraries from its own folders, where
+# imported targets of ours would otherwise be unknown.
+get_property(nadir_third_parties DIRECTORY PROPERTY IMPORTED_TARGETS)
+foreach(target IN LISTS nadir_third_parties)
+  set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
+endforeach()

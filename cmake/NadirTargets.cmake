@@ -17,9 +17,13 @@ endif()
 # nadir_add_library(NAME SOURCES file... [PUBLIC target...] [PRIVATE target...])
 function(nadir_add_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  # A private header-only dependency is compiled in: who links the result needs nothing of it.
+  list(TRANSFORM arg_PRIVATE REPLACE "^(nadir_pocketfft|nlohmann_json::nlohmann_json)$"
+       "$<BUILD_INTERFACE:\\1>")
   add_library(nadir_${name} ${arg_SOURCES})
   add_library(nadir::${name} ALIAS nadir_${name})
   set_target_properties(nadir_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+                        INSTALL_RPATH $ORIGIN  # shared libraries find each other wherever they are
                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(nadir_${name} PUBLIC cxx_std_20)
   target_include_directories(nadir_${name} PUBLIC
@@ -29,12 +33,17 @@ function(nadir_add_library name)
   set_property(GLOBAL APPEND PROPERTY NADIR_LIBRARIES nadir_${name})
 endfunction()
 
-# nadir_add_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program
+# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL label]): one GoogleTest program.
+# The label `slow` leaves it out under the sanitizers.
 function(nadir_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE nadir_build_flags ${arg_LIBRARIES} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${name} PRIVATE NADIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(properties TIMEOUT 600)
+  if(arg_LABEL)
+    list(APPEND properties LABELS ${arg_LABEL})
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

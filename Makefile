@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# A thin front to CMake's presets. On a fresh Debian 12 it needs make alone: what is missing is
+# installed from tools/apt-packages.txt.
+
+JOBS ?= $(shell nproc)
+# Used where it is installed; CMake reads the variable from the environment.
+export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+# ThreadSanitizer cannot place its shadow memory where the kernel randomises addresses too widely.
+NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
+
+.PHONY: help demo test bench format tidy asan tsan docs clean deps deps-quality build
+
+help:  ## print this
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+
+demo: build  ## simulate a drive, localize it, write out/demo
+	build/release/bin/nadir demo -o out/demo --overwrite
+
+test: build  ## build and run all tests
+	ctest --preset release -j $(JOBS)
+
+bench: build  ## run the benchmarks: build/release/bin/*_bench
+	set -e; for program in build/release/bin/*_bench; do echo "== $$program"; $$program; done
+
+format: deps-quality  ## format every C++ file in place
+	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+tidy: build deps-quality  ## run clang-tidy over src and apps
+	tools/tidy.sh -j $(JOBS)
+
+asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
+	cmake --preset asan
+	cmake --build --preset asan -j $(JOBS)
+	ctest --preset asan -j $(JOBS)
+
+tsan: deps  ## the tests under ThreadSanitizer, slow ones left out
+	cmake --preset tsan
+	$(NO_ASLR) cmake --build --preset tsan -j $(JOBS)
+	$(NO_ASLR) ctest --preset tsan -j $(JOBS)
+
+docs: build  ## write docs/options.md from the declarations of the options
+	build/release/bin/nadir config dump --markdown > build/options.md
+	cp build/options.md docs/options.md
+
+clean:  ## remove what was built and what the demo wrote
+	rm -rf build out
+
+build: deps
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS)
+
+deps:
+	@tools/install-deps.sh
+
+deps-quality:
+	@tools/install-deps.sh --quality

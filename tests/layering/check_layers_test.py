@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Plants includes in a small tree and looks at what tools/check_layers.py says of them."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CHECKER = pathlib.Path(__file__).resolve().parents[2] / "tools" / "check_layers.py"
+
+TREE = {
+    "src/nadir/core/raster.hpp": "#include <vector>\n#include <Eigen/Core>\n",
+    "src/nadir/map_matching/matching.hpp": '#include "nadir/core/raster.hpp"\n',
+    "src/nadir/map_matching/cpu/fft.hpp": "#include <pocketfft_hdronly.h>\n",
+    "src/nadir/map_matching/cpu/fft.cpp": '#include "nadir/map_matching/cpu/fft.hpp"\n'
+                                          "#include <tbb/parallel_for.h>\n",
+    "src/nadir/localization/filter.hpp": '#include "nadir/core/raster.hpp"\n',
+    "src/nadir/io/image.cpp": '#include <gdal_priv.h>\n#include <cpl_conv.h>\n'
+                              '#include <filesystem>\n#include "nadir/core/raster.hpp"\n',
+    "src/nadir/report/figures.cpp": '#include <opencv2/core.hpp>\n'
+                                    '#include "nadir/core/raster.hpp"\n',
+    "src/nadir/simulation/drive.cpp": '#include "nadir/core/raster.hpp"\n',
+    "src/nadir/localizer.hpp": '#include "nadir/localization/filter.hpp"\n'
+                               '#include "nadir/map_matching/matching.hpp"\n',
+    "src/nadir/nadir.hpp": '#include "nadir/localizer.hpp"\n',
+    "apps/nadir/verbs.hpp": "#include <CLI/CLI.hpp>\n",
+    "apps/nadir/main.cpp": '#include <iostream>\n#include "verbs.hpp"\n'
+                           '#include "nadir/nadir.hpp"\n#include "nadir/report/figures.hpp"\n',
+    "src/nadir/report/figures.hpp": "",
+}
+
+
+class CheckLayersTest(unittest.TestCase):
+    def check(self, path=None, text=""):
+        """The exit code and the lines printed for the tree with one more file."""
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, content in {**TREE, **({path: text} if path else {})}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(content, encoding="utf-8")
+            done = subprocess.run([sys.executable, CHECKER, "--root", root], check=False,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.stderr, "")
+            return done.returncode, done.stdout.splitlines()
+
+    def assert_found(self, path, text, *words, line=1):
+        code, lines = self.check(path, text)
+        self.assertEqual((code, len(lines)), (1, 1), f"{path} {text!r}: {lines}")
+        self.assertTrue(lines[0].startswith(f"{path}:{line}: "), lines[0])
+        for word in words:
+            self.assertIn(word, lines[0])
+
+    def assert_accepted(self, path, text):
+        self.assertEqual(self.check(path, text), (0, []))
+
+    def test_a_clean_tree_passes(self):
+        self.assertEqual(self.check(), (0, []))
+
+    def test_core_knows_std_and_eigen_only(self):
+        for header in ("opencv2/core.hpp", "gdal.h", "tbb/tbb.h", "fmt/core.h", "spdlog/spdlog.h",
+                       "filesystem", "fstream", "iostream", "thread", "mutex", "atomic", "chrono",
+                       "unistd.h"):
+            self.assert_found("src/nadir/core/x.cpp", f"#include <{header}>\n", header)
+        for module in ("map_matching/matching.hpp", "report/figures.hpp", "localizer.hpp"):
+            self.assert_found("src/nadir/core/x.hpp", f'#include "nadir/{module}"\n', "core includes")
+
+    def test_a_stage_includes_no_other_stage(self):
+        self.assert_found("src/nadir/localization/x.cpp",
+                          '#include "nadir/map_matching/matching.hpp"\n', "stage map_matching")
+        self.assert_found("src/nadir/evaluation/x.cpp",
+                          '#include "nadir/localization/filter.hpp"\n', "stage localization")
+
+    def test_a_stage_includes_nothing_beside_or_above(self):
+        for header in ("report/figures.hpp", "localizer.hpp", "nadir.hpp"):
+            self.assert_found("src/nadir/map_matching/x.cpp", f'#include "nadir/{header}"\n')
+        self.assert_found("src/nadir/map_matching/x.cpp", "#include <filesystem>\n", "files")
+
+    def test_simulation_report_and_io_include_core_only(self):
+        for module in ("simulation", "report", "io"):
+            self.assert_found(f"src/nadir/{module}/x.cpp",
+                              '#include "nadir/map_matching/matching.hpp"\n', "core only")
+        self.assert_found("src/nadir/report/x.cpp", "#include <fstream>\n", "files")
+
+    def test_gdal_lives_in_io(self):
+        for path in ("src/nadir/map_matching/x.cpp", "src/nadir/report/x.cpp", "apps/nadir/x.cpp"):
+            for header in ("gdal_priv.h", "ogr_spatialref.h", "cpl_string.h", "gdal/gdal.h"):
+                self.assert_found(path, f"#include <{header}>\n", "GDAL")
+
+    def test_internal_headers_stay_inside(self):
+        for path in ("apps/nadir/x.cpp", "src/nadir/localizer.cpp", "src/nadir/io/x.cpp"):
+            self.assert_found(path, '#include "nadir/map_matching/cpu/fft.hpp"\n', "internal")
+        self.assert_found("src/nadir/map_matching/x.hpp",
+                          '#include "nadir/map_matching/cpu/fft.hpp"\n', "not installed")
+        self.assert_accepted("src/nadir/map_matching/x.cpp",
+                             '#include "nadir/map_matching/cpu/fft.hpp"\n')
+
+    def test_the_composition_root_includes_stages_but_only_it(self):
+        self.assert_accepted("src/nadir/localizer.cpp", '#include "nadir/localizer.hpp"\n'
+                             '#include "nadir/map_matching/matching.hpp"\n')
+        self.assert_found("src/nadir/other.cpp", '#include "nadir/core/raster.hpp"\n', "no layer")
+
+    def test_an_unknown_folder_is_an_error(self):
+        for path in ("src/nadir/utils/x.hpp", "src/other/localizer.hpp", "src/x.hpp"):
+            self.assert_found(path, "", "no layer")
+
+    def test_an_unknown_third_party_is_an_error(self):
+        for path in ("src/nadir/io/x.cpp", "apps/nadir/x.cpp"):
+            self.assert_found(path, "#include <boost/asio.hpp>\n", "no known third party")
+
+    def test_a_missing_or_relative_header_is_an_error(self):
+        self.assert_found("apps/nadir/x.cpp", '#include "nadir/core/gone.hpp"\n', "there is no")
+        self.assert_found("apps/nadir/x.cpp", '#include "gone.hpp"\n', "there is no")
+        self.assert_found("src/nadir/io/x.cpp", '#include "image.hpp"\n', "not written from src/")
+
+    def test_every_spelling_of_an_include_is_seen(self):
+        for text in ("#include<gdal.h>\n", "  #  include  <gdal.h>\n", "#\tinclude\t<gdal.h>\n",
+                     "#include <gdal.h>  // why\n", "#include /* why */ <gdal.h>\n"):
+            self.assert_found("src/nadir/core/x.hpp", text, "GDAL")
+        self.assert_found("src/nadir/core/x.hpp", "#include GDAL_HEADER\n", "cannot be checked")
+        self.assert_found("src/nadir/io/x.cpp", "#include <nadir/localization/filter.hpp>\n")
+
+    def test_what_is_commented_out_is_not_seen_and_lines_stay_right(self):
+        self.assert_accepted("src/nadir/core/x.hpp",
+                             "// #include <gdal.h>\n/*\n#include <gdal.h>\n*/\n")
+        self.assert_found("src/nadir/core/x.hpp", "/*\n\n*/\n#include <gdal.h>\n", "GDAL", line=4)
+        for opening in ("// src/*.hpp\n", 'auto glob = "src/*.hpp";\n'):
+            self.assert_found("src/nadir/core/x.hpp", opening + "#include <gdal.h>\n/* */\n", "GDAL",
+                              line=2)
+
+
+if __name__ == "__main__":
+    unittest.main()

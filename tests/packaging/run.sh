@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds and runs examples/consumer_project against nadir, as its users would.
+#   run.sh find-package BUILD    against an installation of BUILD that was moved afterwards
+#   run.sh add-subdirectory      against the source tree
+set -euo pipefail
+
+source_dir="$(cd "$(dirname "$0")/../.." && pwd)"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+
+# consume CMAKE_ARGUMENT...: every program of the consumer must build, run and say something.
+consume() {
+  cmake -S "$source_dir/examples/consumer_project" -B "$work/consumer" -G Ninja \
+    -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$work/bin" "$@"
+  cmake --build "$work/consumer"
+  "$work/bin/frames" | grep -F "11.5 m east, 32.5 m north"
+}
+
+case "${1:-}" in
+  find-package)
+    cmake --install "$2" --prefix "$work/installed" >/dev/null
+    mv "$work/installed" "$work/moved"
+    if grep -rnF -e "$source_dir" -e "$work/installed" "$work/moved"/lib*/cmake \
+      "$work/moved"/lib*/*/cmake 2>/dev/null; then
+      echo "the installed package names the tree that it was built in" >&2
+      exit 1
+    fi
+    if [[ -x "$work/moved/bin/nadir" ]]; then
+      "$work/moved/bin/nadir" version
+    fi
+    consume -DCMAKE_PREFIX_PATH="$work/moved"
+    ;;
+  add-subdirectory)
+    consume -DCONSUMER_NADIR_SOURCE="$source_dir"
+    ;;
+  *)
+    echo "usage: run.sh find-package BUILD | add-subdirectory" >&2
+    exit 2
+    ;;
+esac
