@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "add_verb.hpp"
 #include "evaluation_report.hpp"
