@@ -17,7 +17,9 @@ using namespace report;
 constexpr double kCaption = 40.0;
 constexpr double kPatch = 400.0;
 constexpr double kGap = 36.0;
-constexpr double kOverlayOpacity = 0.62;
+// Low scores leave more of the map to be seen.
+constexpr double kLowestOpacity = 0.45;
+constexpr double kHighestOpacity = 0.85;
 constexpr double kBarRoom = 130.0;  ///< the colour bar with its tick labels
 
 struct Layout {
@@ -106,7 +108,7 @@ std::optional<ColourScale> scale_of(const Raster<float>& score) {
   return scale;
 }
 
-/// The scores as a picture: a pixel each, opaque where the score is defined.
+/// The scores as a picture: a pixel each, valid where the score is defined.
 Orthomosaic coloured(const Raster<float>& score, const GeoReference& geo,
                      const ColourScale& scale) {
   Orthomosaic picture{Raster<std::uint8_t>(score.width(), score.height(), 0, 3),
@@ -132,8 +134,13 @@ void draw_overlay(Canvas& canvas, const MapView& view, const Orthomosaic& pictur
   const PixelCoordinate corner = picture.geo.pixel_at(view.region.west, view.region.north);
   Imagery imagery = resample(picture, {step, 0.0, corner.column, 0.0, step, corner.row},
                              fine_pixels(view.box.width), fine_pixels(view.box.height));
-  for (std::uint8_t& opacity : imagery.opacity.values()) {
-    opacity = static_cast<std::uint8_t>(std::lround(kOverlayOpacity * opacity));
+  for (std::size_t i = 0; i < imagery.opacity.values().size(); ++i) {
+    // The colour map is as bright as the score is high.
+    const double bright =
+        std::max(imagery.colour.values()[3 * i], imagery.colour.values()[3 * i + 1]);
+    const double share = kLowestOpacity + (kHighestOpacity - kLowestOpacity) * bright / 255.0;
+    std::uint8_t& opacity = imagery.opacity.values()[i];
+    opacity = static_cast<std::uint8_t>(std::lround(share * opacity));
   }
   canvas.clip(view.box);
   canvas.image(view.box, imagery.colour, imagery.opacity);
@@ -162,7 +169,7 @@ void draw_footprint(Canvas& canvas, const MapView& view, const Footprint& footpr
 }
 
 Stroke found_stroke() { return {kPaper, 4.0, kInk, 0.0}; }
-Stroke truth_stroke() { return {kTruthBlue, 4.0, kPaper, 0.0}; }
+Stroke truth_stroke() { return {kTruthBlue, 6.0, kPaper, 0.0}; }
 Stroke window_stroke() { return {kSearchRed, 4.0, kPaper, 16.0}; }
 
 void draw_window(Canvas& canvas, const MapView& view, const Region& window) {
@@ -239,7 +246,9 @@ void draw_patches(Canvas& canvas, const Layout& layout, const Orthomosaic& map,
 
 LegendEntry box_entry(const std::string& name, const Stroke& stroke) {
   return {name, "", [stroke](Canvas& canvas, const Box& box) {
-            canvas.outline(Box{box.left + 14.0, box.top + 1.0, 34.0, 32.0}.corners(), stroke);
+            const Box sample{box.left + 16.0, box.top + 1.0, 32.0, 32.0};
+            canvas.fill(sample.inset(-9.0).corners(), kFrame);
+            canvas.outline(sample.corners(), stroke);
           }};
 }
 
@@ -261,7 +270,9 @@ void draw_box_legend(Canvas& canvas, const Layout& layout, const HeatMap& heat_m
 
 Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const HeatMap& heat_map) {
   const Region extent = extent_of(map.geo, map.width(), map.height());
-  const Region region = region_of_interest(content_of(heat_map), extent, 2.0);
+  const Region region = heat_map.whole_map && !extent.empty
+                            ? extent
+                            : region_of_interest(content_of(heat_map), extent, 2.0);
   const Layout layout =
       region.width() > 1.25 * region.height() ? lay_out_above(region) : lay_out_beside(region);
   const Raster<float> score =
@@ -274,7 +285,8 @@ Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const Hea
     draw_overlay(canvas, layout.view, coloured(score, heat_map.volume->geo, *scale));
     draw_colour_bar(canvas, layout.bar, ColourMap::kInferno, *scale);
   } else {
-    draw_note(canvas, layout.view.box, "no score is defined here");
+    const Box& box = layout.view.box;
+    draw_note(canvas, {box.left, box.top, box.width, 80.0}, "no score is defined here");
   }
   canvas.clip(layout.view.box);
   if (!heat_map.whole_map && !score.empty()) {
