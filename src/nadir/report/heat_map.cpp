@@ -1,77 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "nadir/report/colour_bar.hpp"
 #include "nadir/report/figures.hpp"
+#include "nadir/report/heat_map_layout.hpp"
 #include "nadir/report/imagery.hpp"
-#include "nadir/report/map_figure.hpp"
 
 namespace nadir {
 namespace {
 
 using namespace report;
 
-constexpr double kCaption = 40.0;
-constexpr double kPatch = 400.0;
-constexpr double kGap = 36.0;
 // Low scores leave more of the map to be seen.
 constexpr double kLowestOpacity = 0.45;
 constexpr double kHighestOpacity = 0.85;
-constexpr double kBarRoom = 130.0;  ///< the colour bar with its tick labels
-
-struct Layout {
-  int width = 0;
-  int height = 0;
-  MapView view;
-  Box bar;
-  std::array<Box, 3> patches;
-  Box legend;
-  Box furniture;
-};
-
-/// The map at the left, colour bar and the three patches beside it, legend below.
-Layout lay_out_beside(const Region& region) {
-  Layout layout;
-  const double top = kMargin + kTitleHeight;
-  constexpr double kPatches = 3.0 * (kPatch + kCaption) + 2.0 * 14.0;
-  layout.view = fit(region, {kMargin + tick_room(region), top, 1330.0, kPatches});
-  const Box& map = layout.view.box;
-  layout.bar = {map.right() + 30.0, top + kCaption, 26.0, std::min(640.0, map.height - kCaption)};
-  const double left = layout.bar.left + kBarRoom;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double row = static_cast<double>(i);
-    layout.patches[i] = {left, top + kCaption + row * (kPatch + kCaption + 14.0), kPatch, kPatch};
-  }
-  layout.width = static_cast<int>(left + kPatch + kMargin);
-  const double below = std::max(map.bottom() + kTickRoom, top + kPatches) + 26.0;
-  layout.legend = {map.left, below, 0.0, 66.0};
-  layout.furniture = {layout.width - kMargin - 300.0, below, 300.0, 120.0};
-  layout.height = static_cast<int>(below + 120.0 + kMargin - 20.0);
-  return layout;
-}
-
-/// The map above, the patches, the legend and the scale in a row below.
-Layout lay_out_above(const Region& region) {
-  Layout layout;
-  const double top = kMargin + kTitleHeight;
-  layout.view = fit(region, {kMargin + tick_room(region), top, 1640.0, 1200.0});
-  const Box& map = layout.view.box;
-  layout.bar = {map.right() + 30.0, top + kCaption, 26.0, std::min(640.0, map.height - kCaption)};
-  const double row = map.bottom() + kTickRoom + 20.0 + kCaption;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double column = static_cast<double>(i);
-    layout.patches[i] = {map.left + column * (kPatch + kGap), row, kPatch, kPatch};
-  }
-  const double left = layout.patches[2].right() + kGap;
-  layout.legend = {left, row, 0.0, 0.0};
-  layout.furniture = {left, row + kPatch - 110.0, 380.0, 110.0};
-  layout.width = static_cast<int>(std::max(map.right() + kBarRoom, left + 380.0) + kMargin - 10.0);
-  layout.height = static_cast<int>(row + kPatch + kMargin);
-  return layout;
-}
 
 Region region_of(const ScoreVolume& volume) {
   if (volume.score.empty()) return {};
@@ -228,11 +172,11 @@ void draw_patch(Canvas& canvas, const Box& box, const Imagery& imagery, const ch
                      {22.0, kInk, Align::kLeft, false, {}});
 }
 
-void draw_patches(Canvas& canvas, const Layout& layout, const Orthomosaic& map,
+void draw_patches(Canvas& canvas, const HeatMapLayout& layout, const Orthomosaic& map,
                   const Orthomosaic& local, const Footprint& found) {
   if (local.image.empty()) return;
   const Footprint footprint{found.map_from_robot, local.geo, local.width(), local.height()};
-  const double scale = kPatch / std::max(local.width(), local.height());
+  const double scale = kPatchSide / std::max(local.width(), local.height());
   const int width = fine_pixels(scale * local.width());
   const int height = fine_pixels(scale * local.height());
   const Transform2<frames::Robot, frames::Robot> as_it_is;
@@ -253,7 +197,7 @@ LegendEntry box_entry(const std::string& name, const Stroke& stroke) {
 }
 
 /// The entries side by side where the legend lies below, one above the other beside the patches.
-void draw_box_legend(Canvas& canvas, const Layout& layout, const HeatMap& heat_map) {
+void draw_box_legend(Canvas& canvas, const HeatMapLayout& layout, const HeatMap& heat_map) {
   std::vector<LegendEntry> entries{box_entry("found", found_stroke())};
   if (heat_map.truth) entries.push_back(box_entry("truth", truth_stroke()));
   if (!heat_map.whole_map) entries.push_back(box_entry("search window", window_stroke()));
@@ -273,8 +217,7 @@ Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const Hea
   const Region region = heat_map.whole_map && !extent.empty
                             ? extent
                             : region_of_interest(content_of(heat_map), extent, 2.0);
-  const Layout layout =
-      region.width() > 1.25 * region.height() ? lay_out_above(region) : lay_out_beside(region);
+  const HeatMapLayout layout = lay_out_heat_map(region);
   const Raster<float> score =
       heat_map.volume == nullptr ? Raster<float>{} : heat_map.volume->best_over_headings();
   const std::optional<ColourScale> scale = scale_of(score);
