@@ -10,7 +10,7 @@ find_package(GDAL 3.4 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256 of the inputs, in the run records
 include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, nadir_opencv_imgcodecs
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
