@@ -25,18 +25,24 @@ struct Sequence {
   std::optional<std::filesystem::path> map;  ///< the global orthomosaic, where the site has one
   std::vector<LocalMap> local_maps;          ///< by increasing stamp and number
   std::optional<Odometry> odometry;
-  std::optional<Trajectory> truth;  ///< map_from_robot
+  std::optional<Trajectory> truth;                   ///< map_from_robot
+  std::optional<std::filesystem::path> calibration;  ///< handed on as it is, never read here
 };
 
 /// Opens a site. Throws Error (input) that names file and line: no sequence.yaml, unknown key,
-/// missing file, no local map, stamps that do not increase.
+/// missing file, a path that leaves the folder, no local map, stamps or numbers that do not
+/// increase.
 Sequence read_sequence(const std::filesystem::path& folder);
 
-/// Reads one frame: its local map and the odometry pose of its stamp, where there is one.
+/// Reads one frame: its local map and the odometry pose of its stamp, where there is one. Between
+/// two samples at most 0.5 s apart the pose is interpolated; otherwise the nearest sample within
+/// 0.01 s is taken. Throws Error (input) as read_orthomosaic does.
 Frame read_frame(const Sequence& sequence, const Sequence::LocalMap& local_map);
 
 /// Writes a site file by file; `finish` writes sequence.yaml last, so that a folder without it is
-/// unfinished. Nothing is left half-written.
+/// unfinished: an older sequence.yaml is removed at the start. No single file is left half-written.
+/// Throws Error (processing) where a file cannot be written, or a local map does not follow the one
+/// before in number and stamp.
 class SequenceWriter {
  public:
   SequenceWriter(std::filesystem::path folder, std::string name);
@@ -44,6 +50,8 @@ class SequenceWriter {
   void write_local_map(int number, Stamp stamp, const Orthomosaic& local);
   void write_odometry(const Odometry& odometry);
   void write_truth(const Trajectory& truth);
+  /// Copies the file into the site.
+  void write_calibration(const std::filesystem::path& source);
   void finish();
 
  private:

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/io/input_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "nadir/core/options.hpp"
+
+namespace nadir {
+namespace {
+
+constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+constexpr std::string_view kBlanks = " \t\r\f\v";
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  line = line.substr(0, line.find('#'));
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return words;
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
+    words.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+}  // namespace
+
+std::string file_and_line(const std::filesystem::path& path, int line) {
+  return path.string() + ":" + std::to_string(line);
+}
+
+void check_input_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw input_error(path, "no such file", "check the path");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw input_error(path, "is a folder, a file is expected", "check the path");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw input_error(path, "cannot be opened", "check its permissions");
+  std::string start(kLfsPointer.size(), '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (file.gcount() == 0) throw input_error(path, "is empty (0 bytes)", "copy or make it again");
+  if (start == kLfsPointer) {
+    throw input_error(path, "is a Git LFS pointer, not the file itself",
+                      "run `git lfs pull` in its repository");
+  }
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  check_input_file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.good() && !file.eof()) throw input_error(path, "cannot be read", "check the disk");
+  return bytes;
+}
+
+void for_each_line(
+    const std::filesystem::path& path, std::string_view text,
+    const std::function<void(const std::string&, const std::vector<std::string_view>&)>& visit) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::vector<std::string_view> words = words_of(text.substr(0, end));
+    if (!words.empty()) visit(file_and_line(path, number), words);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+double number_in_file(std::string_view text, const std::string& what, const std::string& where) {
+  try {
+    return parse_number(text, what);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kInput, error.what(), where, "correct the line");
+  }
+}
+
+}  // namespace nadir
