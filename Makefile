@@ -26,7 +26,7 @@ format: deps-quality  ## format every C++ file in place
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
 tidy: build deps-quality  ## run clang-tidy over src and apps
-	tools/tidy.sh -j $(JOBS)
+	tools/tidy.py -j $(JOBS)
 
 asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
 	cmake --preset asan

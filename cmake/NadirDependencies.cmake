@@ -4,7 +4,13 @@
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(TBB REQUIRED)
+if(NADIR_TBB_STAND_IN)  # the tsan preset: tools/tsan/include/tbb/stand_in.h says why
+  add_library(TBB::tbb INTERFACE IMPORTED)
+  target_include_directories(TBB::tbb INTERFACE ${PROJECT_SOURCE_DIR}/tools/tsan/include)
+  target_link_libraries(TBB::tbb INTERFACE Threads::Threads)
+else()
+  find_package(TBB REQUIRED)
+endif()
 find_package(hwy REQUIRED)
 find_package(GDAL 3.4 REQUIRED)
 find_package(yaml-cpp REQUIRED)

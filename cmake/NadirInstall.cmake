@@ -9,6 +9,7 @@ set(nadir_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nadir)
 # an error, and not a package that fails at the user's.
 set(nadir_find_Eigen3::Eigen "find_dependency(Eigen3 3.4 NO_MODULE)")
 set(nadir_find_TBB::tbb "find_dependency(TBB)")
+set(nadir_find_hwy::hwy "find_dependency(hwy)")
 set(nadir_find_GDAL::GDAL "find_dependency(GDAL 3.4)")
 set(nadir_find_yaml-cpp "find_dependency(yaml-cpp)")
 set(nadir_find_fmt::fmt "find_dependency(fmt)")
