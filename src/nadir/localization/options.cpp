@@ -5,6 +5,7 @@ namespace nadir {
 
 LocalizationOptions LocalizationOptions::paper() {
   LocalizationOptions options;
+  options.start_particles = options.particles;
   options.likelihood = Likelihood::kLinear;
   options.resampling = Resampling::kMultinomial;
   options.resample_below = 1.0;
@@ -29,6 +30,11 @@ void declare(OptionTable& table, LocalizationOptions& options) {
   const std::string measured = "measured on the Aero-Ground run";
   table.integer(stage + "particles", options.particles, {1.0, 1e7}, "Number of particles.",
                 "paper, section V");
+  table.integer(stage + "start_particles", options.start_particles, {1.0, 1e7},
+                "Number of particles until the first resampling, when the cloud is still wide: "
+                "10 m x 10 m x 10 degrees hold about 1000 places of the width of a score's peak, "
+                "and each must be hit by several. Never fewer than `particles`.",
+                measured);
   table.choice<Likelihood>(stage + "likelihood", options.likelihood, kLikelihoodNames,
                            "How a score becomes a weight: exp(temper * score), or the score "
                            "itself, as the paper has it.");

@@ -58,7 +58,8 @@ void ParticleFilter::start_near(const Pose2& prior, const Spread& spread) {
                 "the prior needs a finite x, y and yaw and a spread that is not negative");
   }
   step_ = 0;
-  const auto count = static_cast<std::size_t>(options_.particles);
+  const auto count =
+      static_cast<std::size_t>(std::max(options_.particles, options_.start_particles));
   particles_.poses.resize(count);
   particles_.odometry_scales.resize(count);
   particles_.weights.assign(count, 1.0 / static_cast<double>(count));
@@ -134,7 +135,8 @@ double ParticleFilter::bounded_temper(std::span<const double> scores) const {
 
 bool ParticleFilter::resample_if_needed() {
   const auto count = static_cast<double>(particles_.size());
-  const bool always = options_.resample_below >= 1.0;
+  const bool crowded = particles_.size() > static_cast<std::size_t>(options_.particles);
+  const bool always = crowded || options_.resample_below >= 1.0;
   if (!always && effective_particles() >= options_.resample_below * count) return false;
   resample(options_.adaptive ? kld_particles(particles_, options_)
                              : static_cast<std::size_t>(options_.particles));
