@@ -19,7 +19,8 @@ constexpr const char* kExample =
     "Example:\n"
     "  nadir demo -o out/demo\n"
     "\n"
-    "`nadir VERB --help` explains a verb and shows examples.\n";
+    "`nadir VERB --help` explains a verb and shows examples. Exit codes: 0 done, 1 processing\n"
+    "failed, 2 usage, 3 input, 4 nothing found, 130 interrupted.\n";
 
 /// The innermost verb that was named.
 const CLI::App& chosen(const CLI::App& program) {
@@ -76,7 +77,8 @@ int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv)
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    print(chosen(program).help());
+    const CLI::App& verb = chosen(program);
+    print(verb.help(verb.get_parent() == nullptr ? "" : full_name(*verb.get_parent())));
     return 0;
   } catch (const CLI::CallForVersion&) {
     print(version_text());

@@ -131,9 +131,9 @@ TEST(ResultTest, DemoKeepsItsAccuracy) {
   const Json document = json_of({"demo", "-o", scratch("demo"), "-q"});
   ASSERT_EQ(document["runs"].size(), 3U);
   const Json& ours = document["runs"][2]["evaluation"];
-  EXPECT_LT(ours["ape_trans_m"]["rmse"], 0.5);
-  EXPECT_LT(ours["ape_trans_m"]["max"], 6.0);
-  EXPECT_LT(ours["yaw_deg"]["rmse"], 1.5);
+  EXPECT_LT(ours["ape_trans_m"]["rmse"], 0.25);
+  EXPECT_LT(ours["ape_trans_m"]["max"], 2.0);
+  EXPECT_LT(ours["yaw_deg"]["rmse"], 1.0);
   EXPECT_EQ(ours["unanswered"], 0);
   EXPECT_LT(ours["ape_trans_m"]["rmse"], document["runs"][0]["evaluation"]["ape_trans_m"]["rmse"]);
   EXPECT_TRUE(fs::exists(scratch_folder() / "demo" / "run" / "trajectory.png"));
