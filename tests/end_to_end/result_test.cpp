@@ -118,8 +118,11 @@ TEST(ResultTest, SameSeedSameBytesForAnyNumberOfThreads) {
 TEST(ResultTest, InterruptKeepsWhatWasDone) {
   const std::string run = scratch("interrupted");
   NadirProcess process({"localize", small_site().string(), "-o", run, "--prior", "truth", "--seeds",
-                        "1000", "--particles", "3000", "--progress", "lines"});
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+                        "20", "--particles", "3000", "--progress", "lines"});
+  // The first line of progress comes after two of the seeds.
+  for (int i = 0; i < 600 && process.errors_so_far().find(" % ") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
   process.interrupt();
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
