@@ -81,9 +81,11 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
     const Prior start = start_of(options_.start, truth_of(sequence_, frames_), seed);
     const RunPlan plan{map,   sequence_, frames_,           effective_.values(),
                        start, seed,      use_odometry_file_};
-    SeedRun run = run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
-    write_run(options_.seeds == 1 ? folder : folder / seed_folder(seed), run.result);
-    runs.push_back(std::move(run));
+    std::optional<SeedRun> run =
+        run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
+    if (!run) break;
+    write_run(options_.seeds == 1 ? folder : folder / seed_folder(seed), run->result);
+    runs.push_back(std::move(*run));
   }
   return runs;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "interrupt.hpp"
 #include "run_files.hpp"
 #include "site.hpp"
 
@@ -34,10 +33,11 @@ std::optional<Judgement> judge(const RunResult& result, const Trajectory& truth)
 
 }  // namespace
 
-SeedRun run_and_judge(const RunPlan& plan, const std::function<void(int)>& progress) {
+std::optional<SeedRun> run_and_judge(const RunPlan& plan,
+                                     const std::function<void(int)>& progress) {
   SeedRun run{plan.seed, run_localizer(plan, progress), {}, {}};
   const std::size_t done = run.result.records.size();
-  if (done == 0) throw Interrupted{};
+  if (done == 0) return std::nullopt;
   run.truth = truth_of(plan.sequence, {plan.frames.begin(),
                                        plan.frames.begin() + static_cast<std::ptrdiff_t>(done)});
   run.judgement = judge(run.result, run.truth);

@@ -19,8 +19,8 @@ struct SeedRun {
   std::optional<Judgement> judgement;
 };
 
-/// Runs the plan and judges it. Throws Interrupted where it was stopped before the first frame.
-SeedRun run_and_judge(const RunPlan& plan, const std::function<void(int)>& progress);
+/// Runs the plan and judges it; nothing where it was interrupted before the first frame.
+std::optional<SeedRun> run_and_judge(const RunPlan& plan, const std::function<void(int)>& progress);
 
 /// Frames, rates and evaluation. The localize rate is that of Localizer::update() alone, the total
 /// rate includes decoding and the preparation of the map.
