@@ -50,7 +50,7 @@ struct LocalizationOptions {
   double roughening_deg = 0.0;
 
   double map_error_m = 0.1;
-  double map_error_deg = 0.5;
+  double map_error_deg = 0.4;
 
   double cluster_bin_m = 0.5;
   double cluster_bin_deg = 5.0;
