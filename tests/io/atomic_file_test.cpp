@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/expect_error.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nadir {
@@ -34,6 +35,18 @@ TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {
   {
     AtomicFile file(folder / "pose.txt");
     file.write("half of the n");
+  }
+  EXPECT_EQ(test::read_text(folder / "pose.txt"), "old");
+  EXPECT_EQ(test::count_entries(folder.path()), 1);
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  write_file(folder / "pose.txt", "old");
+  {
+    const test::FullDisk full;
+    test::expect_error(ErrorKind::kProcessing, {"pose.txt", "cannot be written", "free space"},
+                       [&] { write_file(folder / "pose.txt", std::string(1 << 20, 'x')); });
   }
   EXPECT_EQ(test::read_text(folder / "pose.txt"), "old");
   EXPECT_EQ(test::count_entries(folder.path()), 1);

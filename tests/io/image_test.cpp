@@ -112,6 +112,16 @@ TEST(Image, RefusesEveryTruncation) {
   }
 }
 
+TEST(Image, RefusesADamagedPng) {
+  const TemporaryFolder folder;
+  write_png(folder / "image.png", random_raster(40, 30, 1, 9));
+  std::string bytes = test::read_text(folder / "image.png");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+  test::write_text(folder / "image.png", bytes);
+  expect_error(ErrorKind::kInput, {"image.png", "decoded", "damaged"},
+               [&] { read_image(folder / "image.png"); });
+}
+
 TEST(Image, ReadsProgressiveJpeg) {
   const TemporaryFolder folder;
   cv::imwrite(folder / "image.jpg", cv::Mat(50, 60, CV_8UC3, cv::Scalar(1, 2, 3)),

@@ -2,14 +2,13 @@
 #include "nadir/io/orthomosaic_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/gdal_files.hpp"
 #include "io/random_raster.hpp"
 #include "support/expect_error.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nadir {
@@ -89,17 +88,12 @@ TEST_P(RoundTrip, LeavesNothingBehindWhenItFails) {
   write_orthomosaic(folder / GetParam(), old);
   const int entries = test::count_entries(folder.path());
 
-  // The disk is full after 4 KiB.
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small{4096, before.rlim_max};
-  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
-  expect_error(ErrorKind::kProcessing, {GetParam(), "cannot be written", "free space"},
-               [&] { write_orthomosaic(folder / GetParam(), random_orthomosaic(300, 300, 3, 4)); });
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
-
+  const Orthomosaic larger = random_orthomosaic(300, 300, 3, 4);
+  {
+    const test::FullDisk full;
+    expect_error(ErrorKind::kProcessing, {GetParam(), "cannot be written", "free space"},
+                 [&] { write_orthomosaic(folder / GetParam(), larger); });
+  }
   EXPECT_EQ(test::count_entries(folder.path()), entries);
   expect_same(read_orthomosaic(folder / GetParam()), old);
 }

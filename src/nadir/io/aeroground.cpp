@@ -33,13 +33,13 @@ std::optional<int> frame_number(const path& file) {
 
 /// Every N.jpg; none may be missing between the first and the last.
 LocalImages find_local_images(const path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
+  if (!is_folder(folder)) {
     throw input_error(folder, "no such folder",
                       "give the folder that holds local/, the map and truth.txt");
   }
   LocalImages images;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (const auto number = frame_number(entry.path())) images[*number] = entry.path();
+  for (const path& file : files_in(folder, Depth::kFolder)) {
+    if (const auto number = frame_number(file)) images[*number] = file;
   }
   if (images.empty()) throw input_error(folder, "holds no N.jpg", "copy the local maps again");
   for (auto next = std::next(images.begin()); next != images.end(); ++next) {
@@ -133,7 +133,7 @@ Orthomosaic read_local_map(const path& file) {
 std::optional<path> truth_file(const path& directory, const AerogroundOptions& options) {
   if (options.truth) return options.truth;
   const path usual = directory / "truth.txt";
-  return std::filesystem::exists(usual) ? std::optional(usual) : std::nullopt;
+  return is_file(usual) ? std::optional(usual) : std::nullopt;
 }
 
 }  // namespace

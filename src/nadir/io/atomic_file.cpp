@@ -84,6 +84,12 @@ void write_file(const std::filesystem::path& target, std::string_view bytes) {
   file.commit();
 }
 
+void remove_file(const std::filesystem::path& target) {
+  std::error_code error;
+  std::filesystem::remove(target, error);
+  if (error) throw write_error(target, error.value());
+}
+
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

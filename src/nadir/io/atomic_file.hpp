@@ -35,6 +35,9 @@ class AtomicFile {
 /// Writes a whole file by AtomicFile. Throws Error (processing).
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
+/// Removes a file where there is one. Throws Error (processing).
+void remove_file(const std::filesystem::path& target);
+
 /// Creates a folder and its parents. Throws Error (processing).
 void create_folder(const std::filesystem::path& folder);
 

@@ -78,7 +78,7 @@ std::optional<OGRSpatialReference> read_crs(GDALDataset& dataset,
   if (const OGRSpatialReference* own = dataset.GetSpatialRef(); own != nullptr) return *own;
   std::filesystem::path beside = path;
   beside.replace_extension(".prj");
-  if (!std::filesystem::exists(beside)) return std::nullopt;
+  if (!is_file(beside)) return std::nullopt;
   OGRSpatialReference crs;
   if (crs.importFromWkt(read_file(beside).c_str()) != OGRERR_NONE) {
     throw input_error(beside, "is not a coordinate reference system in WKT",

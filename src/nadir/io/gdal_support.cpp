@@ -16,7 +16,10 @@ void GdalErrors::collect(CPLErr level, CPLErrorNum /*number*/, const char* messa
 
 GDALDriver& gdal_driver(const char* name) {
   static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
+  std::call_once(registered, [] {
+    const GdalErrors quiet;  // a plugin that cannot be loaded matters only to who needs it
+    GDALAllRegister();
+  });
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(name);
   if (driver == nullptr) {
     throw Error(ErrorKind::kProcessing, "GDAL was built without its driver", name,

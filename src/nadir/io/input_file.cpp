@@ -12,6 +12,7 @@ namespace nadir {
 namespace {
 
 constexpr std::string_view kLfsPointer = "version https://git-lfs.github.com/spec/";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -27,7 +28,38 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
+template <class Iterator>
+std::vector<std::filesystem::path> sorted_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : Iterator(folder)) {
+    if (is_file(entry.path())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code unknown;
+  return std::filesystem::is_directory(path, unknown);
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, Depth depth) {
+  try {
+    return depth == Depth::kFolder
+               ? sorted_files<std::filesystem::directory_iterator>(folder)
+               : sorted_files<std::filesystem::recursive_directory_iterator>(folder);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw input_error(folder, "cannot be listed: " + error.code().message(),
+                      "check the path and its permissions");
+  }
+}
 
 std::string file_and_line(const std::filesystem::path& path, int line) {
   return path.string() + ":" + std::to_string(line);
@@ -64,6 +96,7 @@ std::string read_file(const std::filesystem::path& path) {
 void for_each_line(
     const std::filesystem::path& path, std::string_view text,
     const std::function<void(const std::string&, const std::vector<std::string_view>&)>& visit) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::vector<std::string_view> words = words_of(text.substr(0, end));

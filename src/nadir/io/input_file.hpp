@@ -20,6 +20,14 @@ inline Error input_error(const std::filesystem::path& path, const std::string& p
 /// "file:line", the place that an error names.
 std::string file_and_line(const std::filesystem::path& path, int line);
 
+/// Whether there is such a file or folder; no where that cannot be found out.
+bool is_file(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+
+/// The files right in a folder, or all below it; sorted. Throws Error (input).
+enum class Depth { kFolder, kAllBelow };
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, Depth depth);
+
 /// Throws Error (input) for a file that is missing, a folder, empty, or a Git LFS pointer.
 void check_input_file(const std::filesystem::path& path);
 

@@ -20,15 +20,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The files of a folder, sorted, so that the same inputs give the same list.
+/// The files of a folder in a fixed order, so that the same inputs give the same list.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& input) {
-  if (!std::filesystem::is_directory(input)) return {input};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(input)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
+  return is_folder(input) ? files_in(input, Depth::kAllBelow) : std::vector{input};
 }
 
 Json describe_inputs(const std::vector<std::filesystem::path>& inputs) {

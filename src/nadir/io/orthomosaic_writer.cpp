@@ -152,7 +152,7 @@ void write_png_with_world_file(const std::filesystem::path& path, const Orthomos
   encode_png(png.temporary(), orthomosaic, path);
   world.write(world_file(orthomosaic.geo));
   if (orthomosaic.geo.crs.empty()) {
-    std::filesystem::remove(crs.target());  // of an image that this one replaces
+    remove_file(crs.target());  // of an image that this one replaces
   } else {
     crs.write(orthomosaic.geo.crs + "\n");
     crs.commit();

@@ -53,7 +53,7 @@ std::optional<path> file_at(const YAML::Node& map, const std::string& key, const
                       "give a path relative to sequence.yaml, inside its folder");
   }
   path file = index.folder / normal;
-  if (!std::filesystem::is_regular_file(file)) {
+  if (!is_file(file)) {
     throw index.error(map[key], fmt::format("'{}' names no file", name.string()),
                       "restore the file or correct its name");
   }
@@ -135,10 +135,10 @@ std::optional<OdomPose2> odometry_at(const Odometry& odometry, Stamp stamp) {
 
 Sequence read_sequence(const path& folder) {
   const Index index{folder, folder / sequence_format::kIndexFile};
-  if (!std::filesystem::is_directory(folder)) {
+  if (!is_folder(folder)) {
     throw input_error(folder, "no such folder", "give a sequence folder (docs/formats.md)");
   }
-  if (!std::filesystem::exists(index.file)) {
+  if (!is_file(index.file)) {
     throw input_error(folder, "holds no sequence.yaml",
                       "it is no sequence folder, or its conversion did not finish; convert again");
   }

@@ -49,7 +49,7 @@ std::string index_of(const Sequence& sequence) {
 SequenceWriter::SequenceWriter(std::filesystem::path folder, std::string name) {
   if (name.empty()) throw Error(ErrorKind::kUsage, "a site needs a name", folder.string());
   create_folder(folder / sequence_format::kLocalMapFolder);
-  std::filesystem::remove(folder / sequence_format::kIndexFile);
+  remove_file(folder / sequence_format::kIndexFile);
   sequence_.folder = std::move(folder);
   sequence_.name = std::move(name);
 }

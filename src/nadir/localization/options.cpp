@@ -34,6 +34,11 @@ void declare(OptionTable& table, LocalizationOptions& options) {
                            "itself, as the paper has it.");
   table.number(stage + "temper", options.temper, {0.0, 1e4},
                "Sharpness of the likelihood: log-likelihood = temper * score.", measured);
+  table.number(stage + "min_effective_share", options.min_effective_share, {0.0, 1.0},
+               "Least share of effective particles that one frame may leave: the temper is lowered "
+               "for the frame where it would leave fewer, so that a wide cloud is not decided by "
+               "one look.",
+               measured);
   table.choice<Resampling>(stage + "resampling", options.resampling, kResamplingNames,
                            "How particles are drawn; multinomial is the paper's roulette.");
   table.number(stage + "resample_below", options.resample_below, {0.0, 1.0},

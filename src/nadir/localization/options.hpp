@@ -26,6 +26,7 @@ struct LocalizationOptions {
   int particles = 1000;
   Likelihood likelihood = Likelihood::kTempered;
   double temper = 60.0;
+  double min_effective_share = 0.1;
   Resampling resampling = Resampling::kSystematic;
   double resample_below = 0.5;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "nadir/core/error.hpp"
 #include "nadir/localization/resampling.hpp"
@@ -11,17 +12,24 @@
 namespace nadir {
 namespace {
 
-/// Turns log weights (or -infinity) into weights that sum to 1; false where all have vanished.
-bool normalise_log_weights(std::vector<double>& log_weights) {
-  const double largest = *std::max_element(log_weights.begin(), log_weights.end());
-  if (!std::isfinite(largest)) return false;
+constexpr int kTemperBisections = 20;
+
+/// weights * exp(temper * log_gain), normalised; nothing where all have vanished.
+std::optional<std::vector<double>> reweighed(std::span<const double> weights,
+                                             std::span<const double> log_gain, double temper) {
+  std::vector<double> result(weights.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = std::log(weights[i]) + temper * log_gain[i];
+  }
+  const double largest = *std::max_element(result.begin(), result.end());
+  if (!std::isfinite(largest)) return std::nullopt;
   double sum = 0.0;
-  for (double& weight : log_weights) {
+  for (double& weight : result) {
     weight = std::exp(weight - largest);
     sum += weight;
   }
-  for (double& weight : log_weights) weight /= sum;
-  return true;
+  for (double& weight : result) weight /= sum;
+  return result;
 }
 
 /// NaN where no score is defined.
@@ -91,18 +99,37 @@ void ParticleFilter::predict(const Motion2& motion) {
 bool ParticleFilter::weigh(std::span<const double> scores) {
   const double lowest = lowest_defined(scores);
   if (std::isnan(lowest)) return false;
-  std::vector<double> log_weights(particles_.size());
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    // A pose that could not be compared is no better than the worst that could.
-    const double score = std::isnan(scores[i]) ? lowest : scores[i];
-    const double gain = options_.likelihood == Likelihood::kTempered
-                            ? options_.temper * score
-                            : std::log(std::max(score, 0.0));
-    log_weights[i] = std::log(particles_.weights[i]) + gain;
+  // A pose that could not be compared is no better than the worst that could.
+  std::vector<double> defined(scores.begin(), scores.end());
+  std::replace_if(
+      defined.begin(), defined.end(), [](double s) { return std::isnan(s); }, lowest);
+
+  std::optional<std::vector<double>> weights;
+  if (options_.likelihood == Likelihood::kLinear) {
+    for (double& score : defined) score = std::log(std::max(score, 0.0));
+    weights = reweighed(particles_.weights, defined, 1.0);
+  } else {
+    weights = reweighed(particles_.weights, defined, bounded_temper(defined));
   }
-  if (!normalise_log_weights(log_weights)) return false;
-  particles_.weights = std::move(log_weights);
+  if (!weights) return false;
+  particles_.weights = std::move(*weights);
   return true;
+}
+
+double ParticleFilter::bounded_temper(std::span<const double> scores) const {
+  const double smallest = options_.min_effective_share * static_cast<double>(particles_.size());
+  const auto effective = [&](double temper) {
+    const auto weights = reweighed(particles_.weights, scores, temper);
+    return weights ? effective_sample_size(*weights) : 0.0;
+  };
+  if (effective(options_.temper) >= smallest) return options_.temper;
+  double low = 0.0;
+  double high = options_.temper;
+  for (int i = 0; i < kTemperBisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (effective(middle) >= smallest ? low : high) = middle;
+  }
+  return low;
 }
 
 bool ParticleFilter::resample_if_needed() {

@@ -10,8 +10,8 @@
 #include "nadir/core/frames.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/score_volume.hpp"
-#include "nadir/map_matching/cpu/quads.hpp"
 #include "nadir/map_matching/options.hpp"
+#include "nadir/map_matching/quads.hpp"
 
 namespace nadir {
 

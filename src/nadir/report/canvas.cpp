@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSubpixelBits = 4;
 constexpr double kFine = Canvas::kOversampling;
-constexpr double kHaloWidth = 1.6;  ///< on each side of a line
+constexpr double kHaloWidth = 1.2;  ///< on each side of a line
 
 cv::Scalar scalar(Colour colour) {
   return {static_cast<double>(colour.red), static_cast<double>(colour.green),

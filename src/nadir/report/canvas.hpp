@@ -82,8 +82,8 @@ class Canvas {
   /// The same, made smaller and then cut so as not to be wider than `width`.
   void fitted_text(Position position, std::string_view text, double width, TextStyle style);
 
-  /// Lays an image over `box`, whose pixels it must have kOversampling^2-fold: `image` is RGB,
-  /// `opacity` (1 channel, same size) 0 .. 255. See `fine_width`.
+  /// Lays an RGB image over `box`, with one value of `opacity` (0 .. 255) a pixel. Both have the
+  /// sheet's pixels: fine_pixels(box.width) x fine_pixels(box.height).
   void image(const Box& box, const Raster<std::uint8_t>& image,
              const Raster<std::uint8_t>& opacity);
 

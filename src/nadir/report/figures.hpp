@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +14,7 @@
 
 namespace nadir {
 
-/// A figure: 8-bit RGB.
+/// A figure: 8-bit RGB. The same input gives the same bytes.
 using Figure = Raster<std::uint8_t>;
 
 struct Track {
@@ -24,7 +23,8 @@ struct Track {
 };
 
 /// The map with tracks on it (the paper's Fig. 9), cropped to what is of interest; legend, scale
-/// bar, north arrow. The first track is drawn last, on top.
+/// bar, north arrow. The first track is drawn last, on top; those beneath are wider. Poses that are
+/// not finite interrupt their track. Every figure is north up, its axes in metres of the map frame.
 Figure draw_trajectories(const Orthomosaic& map, const std::vector<Track>& tracks,
                          const std::string& title);
 
@@ -37,7 +37,8 @@ struct Swarm {
 };
 
 /// The particle swarm at several instants on one map (the paper's Fig. 8), with an inset per
-/// instant that is large enough to see the cloud.
+/// instant that is large enough to see the cloud: dots with their headings, coloured by weight
+/// relative to the swarm's largest; estimate and truth as arrows.
 Figure draw_swarms(const Orthomosaic& map, const std::vector<Swarm>& swarms,
                    const std::string& title);
 
@@ -59,15 +60,17 @@ struct HeatMap {
 };
 
 /// The score heat map over the map with search window (red), truth (blue) and found place (white)
-/// as boxes, colour bar, scale bar (the paper's Figs. 6 and 7); beside it the local map and the
-/// map patch under the found pose.
+/// as boxes, colour bar, scale bar (the paper's Figs. 6 and 7); beside it the local map, the map
+/// patch under the found pose, and both as a checkerboard. A box is the outline of the local map;
+/// its wedge looks ahead. Undefined scores (NaN) leave the map bare; a null or empty volume is said
+/// so.
 Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const HeatMap& heat_map);
 
 /// One curve of a time plot.
 struct Curve {
   std::string name;
   std::vector<double> x;
-  std::vector<double> y;  ///< NaN leaves a gap
+  std::vector<double> y;  ///< same length as x; NaN leaves a gap
 };
 
 /// Stacked panels that share their x axis: error, yaw error, N_eff, …
@@ -75,6 +78,7 @@ struct Panel {
   std::string y_label;
   std::vector<Curve> curves;
 };
+/// Each panel has its own y axis, with its label at the left above it and its legend at the right.
 Figure draw_panels(const std::vector<Panel>& panels, const std::string& x_label,
                    const std::string& title);
 

@@ -8,9 +8,8 @@
 
 namespace nadir::report {
 
-/// Lays a map under every sheet pixel of a box: a rotated, scaled cut-out.
-/// A sheet pixel (u, v) of the box shows the map's continuous pixel
-/// (a[0] u + a[1] v + a[2], a[3] u + a[4] v + a[5]).
+/// Which place of a raster a sheet shows: at (u, v), continuous sheet pixels from the upper left
+/// corner, lies the raster's continuous pixel (a[0] u + a[1] v + a[2], a[3] u + a[4] v + a[5]).
 using PixelTransform = std::array<double, 6>;
 
 /// A stretch of ground, resampled to the sheet's pixels.

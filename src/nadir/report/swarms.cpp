@@ -157,7 +157,7 @@ void draw_inset(Canvas& canvas, const Orthomosaic& map, const Box& box, const Sw
   draw_map(canvas, view, map, Tint::kGrey);
   canvas.clip(box);
   draw_particles(canvas, view, swarm);
-  if (swarm.truth) draw_pose(canvas, view, *swarm.truth, kSkyBlue, 62.0);
+  if (swarm.truth) draw_pose(canvas, view, *swarm.truth, kSkyBlue, 84.0);
   draw_pose(canvas, view, swarm.estimate, kVermillion, 62.0);
   canvas.unclip();
   canvas.outline(box.corners(), {kInk, 2.0, {}, 0.0});
@@ -173,7 +173,7 @@ void draw_in_overview(Canvas& canvas, const MapView& view, const Swarm& swarm) {
   for (const Pose2& particle : swarm.particles) {
     canvas.disc(view.at(particle.x, particle.y), 2.2, kYellow, 0.55);
   }
-  if (swarm.truth) draw_pose(canvas, view, *swarm.truth, kSkyBlue, 30.0);
+  if (swarm.truth) draw_pose(canvas, view, *swarm.truth, kSkyBlue, 42.0);
   draw_pose(canvas, view, swarm.estimate, kVermillion, 30.0);
 }
 
@@ -205,9 +205,13 @@ void draw_swarm_legend(Canvas& canvas, const Layout& layout, bool with_truth) {
   std::vector<LegendEntry> entries{pose_entry("estimate", kVermillion)};
   if (with_truth) entries.push_back(pose_entry("truth", kSkyBlue));
   const Box& box = layout.legend;
-  draw_legend(canvas, {box.left, box.top, 600.0, box.height}, entries);
-  draw_colour_bar(canvas, {box.left + 520.0, box.top + 10.0, 330.0, 22.0}, ColourMap::kViridis,
-                  {0.0, 1.0, "particle weight / largest weight"});
+  constexpr double kEntry = 220.0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double left = box.left + kEntry * static_cast<double>(i);
+    draw_legend(canvas, {left, box.top, kEntry, box.height}, {entries[i]});
+  }
+  draw_colour_bar(canvas, {box.left + 2.0 * kEntry + 20.0, box.top + 10.0, 330.0, 22.0},
+                  ColourMap::kViridis, {0.0, 1.0, "particle weight / largest weight"});
   draw_north_arrow(canvas, {box.right() - 30.0, box.top - 8.0}, 84.0);
 }
 
@@ -237,7 +241,10 @@ Figure draw_swarms(const Orthomosaic& map, const std::vector<Swarm>& swarms,
     draw_inset_frame(canvas, layout.overview, inset_region(swarms[i]), number);
     draw_inset(canvas, map, layout.insets[i], swarms[i], number);
   }
-  if (swarms.empty()) draw_note(canvas, layout.overview.box, "nothing to show: no swarm");
+  if (swarms.empty()) {
+    draw_note(canvas, layout.overview.box, "nothing to show: no swarm");
+    return canvas.finish();
+  }
   const bool with_truth = std::any_of(swarms.begin(), swarms.end(),
                                       [](const Swarm& swarm) { return swarm.truth.has_value(); });
   draw_swarm_legend(canvas, layout, with_truth);

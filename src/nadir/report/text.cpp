@@ -29,7 +29,7 @@ int thickness_of(const TextStyle& style) {
 std::string spelled(std::string_view text) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kSpellings{
       {{"°", "\x01"},
-       {"±", "+-"},
+       {"±", "+/-"},
        {"–", "-"},
        {"—", "-"},
        {"−", "-"},
@@ -68,7 +68,7 @@ int run_width(const std::string& run, const TextStyle& style) {
       .width;
 }
 
-int degree_width(const TextStyle& style) { return cvRound(kFine * 0.36 * style.size); }
+int degree_width(const TextStyle& style) { return cvRound(kFine * 0.42 * style.size); }
 
 /// Calls `run(text, x)` for each stretch of plain text and `degree(x)` for each degree sign;
 /// returns the whole width in sheet pixels.
@@ -105,8 +105,8 @@ void draw_text(cv::Mat& pixels, const std::string& text, cv::Point origin, const
                     scale_of(style), ink, thickness, cv::LINE_AA);
       },
       [&](int x) {
-        const int radius = cvRound(kFine * 0.11 * style.size);
-        const cv::Point centre(origin.x + x + cvRound(kFine * 0.17 * style.size),
+        const int radius = cvRound(kFine * (style.bold ? 0.15 : 0.12) * style.size);
+        const cv::Point centre(origin.x + x + cvRound(kFine * 0.2 * style.size),
                                origin.y - cvRound(kFine * 0.62 * style.size));
         cv::circle(pixels, centre, radius, ink, thickness, cv::LINE_AA);
       });

@@ -14,9 +14,9 @@ using namespace report;
 
 /// Tracks beneath are drawn wider, so that they show where the upper ones cover them.
 double line_width(std::size_t index) {
-  return 3.4 + 2.6 * std::min(static_cast<double>(index), 4.0);
+  return 3.4 + 3.8 * std::min(static_cast<double>(index), 3.0);
 }
-double dot_radius(std::size_t index) { return 1.1 * line_width(index) + 0.6; }
+double dot_radius(std::size_t index) { return 0.75 * line_width(index) + 1.6; }
 
 constexpr double kDotSpacing = 20.0;  ///< pixels between two dots at least
 

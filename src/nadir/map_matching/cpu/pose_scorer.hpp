@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "nadir/map_matching/cpu/quads.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 #include "nadir/map_matching/matching.hpp"
+#include "nadir/map_matching/quads.hpp"
 
 namespace nadir::cpu {
 

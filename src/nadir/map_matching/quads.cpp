@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/map_matching/cpu/quads.hpp"
+#include "nadir/map_matching/quads.hpp"
 
 namespace nadir {
 
