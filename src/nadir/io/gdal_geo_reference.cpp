@@ -21,7 +21,7 @@ std::string warp_line(const std::filesystem::path& path, const std::string& argu
 }
 
 std::string text_of(char* allocated_by_gdal) {
-  const std::string text = allocated_by_gdal == nullptr ? "" : allocated_by_gdal;
+  std::string text = allocated_by_gdal == nullptr ? "" : allocated_by_gdal;
   CPLFree(allocated_by_gdal);
   return text;
 }
@@ -33,7 +33,8 @@ std::string utm_zone_at(const OGRSpatialReference& crs, double x, double y) {
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const std::unique_ptr<OGRCoordinateTransformation> to_wgs84(
       OGRCreateCoordinateTransformation(&crs, &wgs84));
-  if (!to_wgs84 || !to_wgs84->Transform(1, &x, &y) || std::abs(x) > 180.0 || std::abs(y) > 84.0) {
+  if (!to_wgs84 || to_wgs84->Transform(1, &x, &y) == 0 || std::abs(x) > 180.0 ||
+      std::abs(y) > 84.0) {
     return "EPSG:326NN (NN = UTM zone)";
   }
   const int zone = std::clamp(static_cast<int>(std::floor((x + 180.0) / 6.0)) + 1, 1, 60);

@@ -18,6 +18,8 @@ class GdalErrors {
   ~GdalErrors() { CPLPopErrorHandler(); }
   GdalErrors(const GdalErrors&) = delete;
   GdalErrors& operator=(const GdalErrors&) = delete;
+  GdalErrors(GdalErrors&&) = delete;
+  GdalErrors& operator=(GdalErrors&&) = delete;
 
   bool failed() const { return failed_; }
   const std::string& first_failure() const { return first_failure_; }
@@ -38,6 +40,8 @@ class GdalSetting {
   ~GdalSetting() { CPLSetThreadLocalConfigOption(name_, nullptr); }
   GdalSetting(const GdalSetting&) = delete;
   GdalSetting& operator=(const GdalSetting&) = delete;
+  GdalSetting(GdalSetting&&) = delete;
+  GdalSetting& operator=(GdalSetting&&) = delete;
 
  private:
   const char* name_;

@@ -16,21 +16,15 @@ namespace nadir {
 namespace {
 
 /// OpenCV tells its troubles to stderr; here they travel in the Error.
-void silence_opencv() {
-  static const auto previous =
-      cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  static_cast<void>(previous);
-}
+void silence_opencv() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
 
-cv::Mat decode(const std::filesystem::path& path, const std::string& bytes) {
+cv::Mat decode(const std::filesystem::path& path, std::string& bytes) {
   // The stored pixels, whatever the EXIF orientation says: calibrations and world files refer to
   // them, and a resize leaves stale EXIF behind.
   constexpr int kStoredPixels =
       cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
   try {
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                          // OpenCV has no view of constant memory; it only reads this one
-                          const_cast<char*>(bytes.data()));
+    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     return cv::imdecode(encoded, kStoredPixels);
   } catch (const cv::Exception& exception) {
     throw input_error(path, "the image cannot be decoded: " + exception.err,
@@ -62,7 +56,7 @@ cv::Mat in_opencv_order(Raster<std::uint8_t> image) {
 
 Raster<std::uint8_t> read_image(const std::filesystem::path& path) {
   silence_opencv();
-  const std::string bytes = read_file(path);
+  std::string bytes = read_file(path);
   check_image_is_whole(path, bytes);
   const cv::Mat decoded = decode(path, bytes);
   if (decoded.empty()) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cpl_string.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -49,6 +50,7 @@ bool write_band(GDALRasterBand* band, const Raster<std::uint8_t>& from, int chan
   if (band == nullptr) return false;
   const auto pixel_step = static_cast<GSpacing>(from.channels());
   // RasterIO takes one pointer for both directions; it only reads here.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   auto* values = const_cast<std::uint8_t*>(from.values().data() + channel);
   return band->RasterIO(GF_Write, 0, 0, from.width(), from.height(), values, from.width(),
                         from.height(), GDT_Byte, pixel_step, pixel_step * from.width(),
@@ -94,18 +96,16 @@ void write_geotiff(const std::filesystem::path& path, const Orthomosaic& orthomo
   const GdalErrors errors;
   const GdalSetting internal_mask("GDAL_TIFF_INTERNAL_MASK", "YES");
   const Raster<std::uint8_t>& image = orthomosaic.image;
-  const std::array<const char*, 8> options{
-      "TILED=YES",
-      "BLOCKXSIZE=512",
-      "BLOCKYSIZE=512",
-      "PREDICTOR=2",
-      "COMPRESS=DEFLATE",
-      "BIGTIFF=IF_SAFER",
-      image.channels() == 3 ? "PHOTOMETRIC=RGB" : "PHOTOMETRIC=MINISBLACK",
-      nullptr};
+  CPLStringList options;
+  options.SetNameValue("TILED", "YES");
+  options.SetNameValue("BLOCKXSIZE", "512");
+  options.SetNameValue("BLOCKYSIZE", "512");
+  options.SetNameValue("COMPRESS", "DEFLATE");
+  options.SetNameValue("PREDICTOR", "2");
+  options.SetNameValue("BIGTIFF", "IF_SAFER");
+  options.SetNameValue("PHOTOMETRIC", image.channels() == 3 ? "RGB" : "MINISBLACK");
   GdalDataset dataset(driver.Create(file.temporary().c_str(), image.width(), image.height(),
-                                    image.channels(), GDT_Byte,
-                                    const_cast<char**>(options.data())));
+                                    image.channels(), GDT_Byte, options.List()));
   if (!dataset) throw write_error(path, errors.first_failure());
   set_geo_reference(*dataset, orthomosaic.geo, path);
   bool written = write_colours(*dataset, image);
