@@ -24,9 +24,10 @@ inline constexpr std::array<std::pair<Likelihood, const char*>, 2> kLikelihoodNa
 
 struct LocalizationOptions {
   int particles = 1000;
+  int start_particles = 20000;
   Likelihood likelihood = Likelihood::kTempered;
-  double temper = 60.0;
-  double min_effective_share = 0.1;
+  double temper = 50.0;
+  double min_effective_share = 0.0;
   Resampling resampling = Resampling::kSystematic;
   double resample_below = 0.5;
 
@@ -36,17 +37,20 @@ struct LocalizationOptions {
   double kld_bin_m = 0.25;
   double kld_bin_deg = 2.0;
 
-  double position_noise_per_m = 0.10;
+  double position_noise_per_m = 0.20;
   double position_noise_floor_m = 0.03;
   double yaw_noise_deg_per_m = 0.5;
   double yaw_noise_deg_per_deg = 0.1;
   double yaw_noise_floor_deg = 0.2;
 
   double odometry_scale_sigma = 0.05;
-  double odometry_scale_walk = 0.01;
+  double odometry_scale_walk = 0.02;
 
   double roughening_m = 0.0;
   double roughening_deg = 0.0;
+
+  double map_error_m = 0.1;
+  double map_error_deg = 0.5;
 
   double cluster_bin_m = 0.5;
   double cluster_bin_deg = 5.0;

@@ -58,7 +58,8 @@ void ParticleFilter::start_near(const Pose2& prior, const Spread& spread) {
                 "the prior needs a finite x, y and yaw and a spread that is not negative");
   }
   step_ = 0;
-  const auto count = static_cast<std::size_t>(options_.particles);
+  const auto count =
+      static_cast<std::size_t>(std::max(options_.particles, options_.start_particles));
   particles_.poses.resize(count);
   particles_.odometry_scales.resize(count);
   particles_.weights.assign(count, 1.0 / static_cast<double>(count));
@@ -134,17 +135,21 @@ double ParticleFilter::bounded_temper(std::span<const double> scores) const {
 
 bool ParticleFilter::resample_if_needed() {
   const auto count = static_cast<double>(particles_.size());
-  const bool always = options_.resample_below >= 1.0;
+  const bool crowded = particles_.size() > static_cast<std::size_t>(options_.particles);
+  const bool always = crowded || options_.resample_below >= 1.0;
   if (!always && effective_particles() >= options_.resample_below * count) return false;
-  resample(options_.adaptive ? kld_particles(particles_, options_)
-                             : static_cast<std::size_t>(options_.particles));
+  resample(static_cast<std::size_t>(options_.particles), Purpose::kResample);
+  if (options_.adaptive) {
+    const std::size_t enough = kld_particles(particles_, options_);
+    if (enough < particles_.size()) resample(enough, Purpose::kThin);
+  }
   roughen();
   return true;
 }
 
-void ParticleFilter::resample(std::size_t count) {
+void ParticleFilter::resample(std::size_t count, Purpose purpose) {
   const std::vector<std::size_t> indices =
-      draw_indices(options_.resampling, particles_.weights, count, stream(Purpose::kResample));
+      draw_indices(options_.resampling, particles_.weights, count, stream(purpose));
   ParticleSet drawn;
   for (const std::size_t index : indices) {
     drawn.poses.push_back(particles_.poses[index]);

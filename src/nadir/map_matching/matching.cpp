@@ -135,6 +135,12 @@ MatchResult match(const MapIndex& map, const Template& local, const SearchRegion
   }
 
   result.candidates = find_peaks(result.volume, map.options());
+  for (MatchCandidate& candidate : result.candidates) {
+    candidate = climb(map, local, candidate, result.volume.yaws.size() > 1);
+  }
+  std::stable_sort(
+      result.candidates.begin(), result.candidates.end(),
+      [](const MatchCandidate& a, const MatchCandidate& b) { return a.score > b.score; });
   if (result.candidates.empty()) {
     result.status = failure(result.volume, map.options().min_valid_weight);
     return result;

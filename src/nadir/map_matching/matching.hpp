@@ -58,11 +58,12 @@ Template make_template(const Orthomosaic& local, const MatchingOptions& options)
 /// Where to look for the robot. Default: the whole map at one heading.
 struct SearchRegion {
   /// Centre of the square of robot positions, map frame; absent = every position in the map.
-  std::optional<Point2<frames::Map>> centre;
-  double half_size_m = 5.0;            ///< half the side of that square
-  double yaw_rad = 0.0;                ///< the middle heading
-  double yaw_half_range_rad = 0.0;     ///< pi = every heading
-  std::optional<double> yaw_step_rad;  ///< default: MatchingOptions::yaw_step_deg
+  std::optional<Point2<frames::Map>> centre = std::nullopt;
+  double half_size_m = 5.0;         ///< half the side of that square
+  double yaw_rad = 0.0;             ///< the middle heading
+  double yaw_half_range_rad = 0.0;  ///< pi = every heading
+  /// Default: MatchingOptions::yaw_step_deg.
+  std::optional<double> yaw_step_rad = std::nullopt;
 };
 
 enum class MatchStatus {

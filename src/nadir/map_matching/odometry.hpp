@@ -14,7 +14,7 @@ struct RegistrationOptions {
   double max_step_m = 2.0;
   double max_turn_deg = 0.0;
   double turn_step_deg = 0.5;
-  double min_score = 0.5;
+  double min_score = 0.65;
 };
 
 void declare(OptionTable& table, RegistrationOptions& options);

@@ -12,6 +12,12 @@ namespace nadir {
 /// one. At most `candidates` of them; none where no score is defined.
 std::vector<MatchCandidate> find_peaks(const ScoreVolume& volume, const MatchingOptions& options);
 
+/// Climbs from a candidate to the maximum of the exact score beside it, by Newton steps on a
+/// quadratic through the scores around it. The heading stays where `turn` is off. Returns the
+/// candidate itself where no better pose is found.
+MatchCandidate climb(const MapIndex& map, const Template& local, const MatchCandidate& candidate,
+                     bool turn);
+
 /// See MatchResult::peak_ratio.
 double peak_ratio(const ScoreVolume& volume, const std::vector<MatchCandidate>& candidates);
 

@@ -71,8 +71,9 @@ PixelRole pixel_role(const MatchingOptions& options) {
     case Score::kWnccPaper:
       return {.weighted = true, .whole_square = true, .weight = options.paper_weight};
     case Score::kWncc:
-    case Score::kZwncc:
       return {.weighted = true};
+    case Score::kZwncc:
+      return {.weighted = true, .weighted_norms = true};
     case Score::kNcc:
     case Score::kZncc:
       break;
@@ -124,8 +125,9 @@ RotatedTemplate rotate_template(const ChannelImage& local, double yaw_rad, doubl
       turned.mask.at(column, row) = 1.0F;
       turned.weight.at(column, row) = static_cast<float>(weight);
       if (!sample.seen) continue;
-      turned.seen.at(column, row) = static_cast<float>(weight);
-      turned.total_seen += weight;
+      const double seen = role.weighted_norms ? weight : 1.0;
+      turned.seen.at(column, row) = static_cast<float>(seen);
+      turned.total_seen += seen;
     }
   }
   return turned;

@@ -10,8 +10,9 @@ inline constexpr float kHoleGrey = 255.0F;
 
 /// What the options make of the pixels of both maps.
 struct PixelRole {
-  bool weighted = false;      ///< the score weighs pixels by equation [4]
-  bool whole_square = false;  ///< holes take part, as white pixels (ssd, sad, wncc_paper)
+  bool weighted = false;        ///< the score weighs pixels by equation [4]
+  bool weighted_norms = false;  ///< in its means and norms too (zwncc), and so in what is compared
+  bool whole_square = false;    ///< holes take part, as white pixels (ssd, sad, wncc_paper)
   PaperWeight weight = PaperWeight::kNormalised;
 };
 PixelRole pixel_role(const MatchingOptions& options);

@@ -48,8 +48,7 @@ class TemplateCorrelator {
         shifts_{map_shift, mean_grey(local.value, local.mask)} {}
 
   ScoreSurface surface() const {
-    const bool weighted_norms = options_.score == Score::kZwncc;
-    const Raster<float>& a = weighted_norms ? local_.weight : local_.mask;
+    const Raster<float>& a = pixel_role(options_).weighted_norms ? local_.weight : local_.mask;
     const Raster<float> unit = shifted(local_.value, local_.mask, shifts_.local);
     const Raster<float> ap = times(a, unit);
     const Spectrum a_spectrum = fft_.forward(a);
@@ -70,13 +69,12 @@ class TemplateCorrelator {
       jobs.emplace_back([&] { sums[6] = correlate(map_.mask, wp_spectrum); });
       jobs.emplace_back([&] { sums[7] = correlate(map_.value, wp_spectrum); });
     }
-    // The share of what is compared: the sum of weights itself, where these are the same thing.
-    const bool seen_apart = !map_.seen.empty() || options_.score == Score::kWncc;
+    // The share of what is compared is the sum of weights itself, unless holes take part.
+    const bool seen_apart = !map_.seen.empty();
     Spectrum seen_spectrum;
     if (seen_apart) {
       seen_spectrum = fft_.forward(local_.seen);
-      const Spectrum& seen_map = map_.seen.empty() ? map_.mask : map_.seen;
-      jobs.emplace_back([&] { sums[8] = correlate(seen_map, seen_spectrum); });
+      jobs.emplace_back([&] { sums[8] = correlate(map_.seen, seen_spectrum); });
     }
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job) { jobs[job](); });
     return assemble(sums, seen_apart ? sums[8] : sums[0]);

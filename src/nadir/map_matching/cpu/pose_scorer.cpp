@@ -131,7 +131,6 @@ Sums sum_at(const Quads& map, const PixelList& pixels, const PixelPose& pose) {
 PixelList list_pixels(const ChannelImage& local, const MatchingOptions& options,
                       double map_resolution, double map_shift) {
   const PixelRole role = pixel_role(options);
-  const bool weighted_norms = options.score == Score::kZwncc;
   PixelList list;
   list.shifts.map = map_shift;
   double sum = 0.0;
@@ -150,7 +149,7 @@ PixelList list_pixels(const ChannelImage& local, const MatchingOptions& options,
       const double weight = role.weighted ? pixel_weight(role.weight, centre, local.value.width(),
                                                          local.value.height())
                                           : 1.0;
-      const double a = weighted_norms ? weight : 1.0;
+      const double a = role.weighted_norms ? weight : 1.0;
       const double unit = (local.value.at(column, row) - list.shifts.local) / kGreyScale;
       list.x.push_back(static_cast<float>(local.geo.x_at(centre.column) / map_resolution));
       list.y.push_back(static_cast<float>(local.geo.y_at(centre.row) / map_resolution));

@@ -83,8 +83,9 @@ Placement place(const ChannelImage& map, const ChannelImage& local, const PixelR
           Point2<frames::Robot>{local.geo.x_at(centre.column), local.geo.y_at(centre.row)};
       const PixelCoordinate below = map.geo.pixel_at(point.x, point.y);
       const bool on_map = sample_map(map, below, false).has_value();
-      if (seen) placement.seen += weight;
-      if (seen && on_map) placement.seen_on_map += weight;
+      const double compared = role.weighted_norms ? weight : 1.0;
+      if (seen) placement.seen += compared;
+      if (seen && on_map) placement.seen_on_map += compared;
       if (!on_map && !role.whole_square) continue;
       placement.pairs.map.push_back(*sample_map(map, below, role.whole_square));
       placement.pairs.local.push_back(seen ? local.value.at(column, row) : kHoleGrey);
