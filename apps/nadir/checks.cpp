@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "checks.hpp"
+
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "nadir/localizer.hpp"
+#include "nadir/simulation/drive.hpp"
+#include "stopwatch.hpp"
+#include "threads.hpp"
+
+namespace nadir::cli {
+namespace {
+
+constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+
+Check check_driver(const char* name, bool needed) {
+  const bool there = GDALGetDriverByName(name) != nullptr;
+  return {std::string("GDAL driver ") + name, there, needed,
+          there ? "present" : "missing from this GDAL"};
+}
+
+Check check_proj_data() {
+  OGRSpatialReferenceH utm = OSRNewSpatialReference(nullptr);
+  const bool found = OSRImportFromEPSG(utm, 32650) == OGRERR_NONE;
+  OSRDestroySpatialReference(utm);
+  return {"PROJ data", found, false,
+          found ? "EPSG codes are known" : "proj.db not found: install proj-data or set PROJ_DATA"};
+}
+
+Check check_memory() {
+  const double page = static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double total = page * static_cast<double>(sysconf(_SC_PHYS_PAGES));
+  const double free = page * static_cast<double>(sysconf(_SC_AVPHYS_PAGES));
+  return {"memory", total > 0.0, false,
+          fmt::format("{:.1f} GiB free of {:.1f}", free / kGibibyte, total / kGibibyte)};
+}
+
+Check check_disk() {
+  std::error_code error;
+  const auto space = std::filesystem::space(".", error);
+  if (error) return {"disk", false, false, error.message()};
+  return {"disk", space.available > 0, false,
+          fmt::format("{:.1f} GiB free here", static_cast<double>(space.available) / kGibibyte)};
+}
+
+Check check_gpu() {
+  const bool there = std::filesystem::exists("/dev/nvidia0");
+  return {"GPU", there, false, there ? "an NVIDIA device is present" : "no NVIDIA device"};
+}
+
+}  // namespace
+
+std::vector<Check> check_backends() {
+  return {{"backend cpu", true, true, "built and usable"},
+          {"backend reference", true, true, "built and usable; slow, the oracle of the tests"},
+          {"backend cuda", false, false, "not part of this build"}};
+}
+
+std::vector<Check> check_files() {
+  GDALAllRegister();
+  return {check_driver("GTiff", true), check_driver("PNG", true),  check_driver("JPEG", true),
+          check_driver("VRT", false),  check_driver("COG", false), check_proj_data()};
+}
+
+std::vector<Check> check_host() {
+  return {{"cores", true, false, fmt::format("{} may be used", allowed_cores())},
+          check_memory(),
+          check_disk(),
+          check_gpu()};
+}
+
+Check check_core_path() {
+  const Stopwatch stopwatch;
+  DriveOptions drive;
+  drive.frames = 5;
+  const SimulatedSite site = simulate_drive(1, drive);
+  Localizer localizer(site.map, LocalizerOptions{}, 1);
+  localizer.start_near(site.truth.front().pose, Spread{1.0, radians(2.0)});
+  Estimate estimate;
+  for (const Frame& frame : site.frames) estimate = localizer.update(frame);
+  const Pose2& truth = site.truth.back().pose;
+  const double error_m =
+      std::hypot(estimate.map_from_robot.x - truth.x, estimate.map_from_robot.y - truth.y);
+  return {"core path", error_m < 1.0, true,
+          fmt::format("{} simulated frames localized in {:.1f} s, error {:.2f} m",
+                      site.frames.size(), stopwatch.seconds(), error_m)};
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <filesystem>
+
+#include "add_verb.hpp"
+#include "demo_site.hpp"
+#include "effective_options.hpp"
+#include "interrupt.hpp"
+#include "manifest_of.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "run_figures.hpp"
+#include "run_files.hpp"
+#include "seed_run.hpp"
+#include "site.hpp"
+#include "stopwatch.hpp"
+#include "text_table.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DemoOptions {
+  fs::path output = "out/demo";
+};
+
+/// A way to localize, as a user would ask for it.
+struct Way {
+  const char* name;
+  const char* folder;
+  const char* preset;
+  const char* score;
+};
+constexpr std::array<Way, 3> kWays{{{"ncc + PF", "run_ncc", "paper", "ncc"},
+                                    {"wncc + PF (the paper's)", "run_wncc", "paper", "wncc"},
+                                    {"nadir", "run", "default", "zwncc"}}};
+
+/// The same commands that a user would type, with their own outputs.
+void explain(const DemoOptions& options, const Invocation& invocation) {
+  const std::string out = options.output.string();
+  std::string text = "The demo makes a site and does what these commands do:\n";
+  for (const Way& way : kWays) {
+    text += fmt::format(
+        "  nadir localize {0}/site -o {0}/{1} --preset {2} --score {3} --prior truth --seed {4}\n",
+        out, way.folder, way.preset, way.score, invocation.common.seed);
+  }
+  text += fmt::format("  nadir eval {0}/run/trajectory.tum --truth {0}/site/truth.tum\n", out);
+  if (!invocation.common.json) print(text + "\n");
+}
+
+SeedRun run_way(const Way& way, const Orthomosaic& map, const Sequence& sequence,
+                const fs::path& folder, const Invocation& invocation) {
+  OptionSources sources;
+  sources.preset = way.preset;
+  sources.sets = {std::string("map_matching.score=") + way.score};
+  const EffectiveOptions options(sources);
+  const std::uint64_t seed = invocation.common.seed;
+  const Prior start = start_of({"truth", "5,5"}, *sequence.truth, seed);
+  Progress progress(std::string("localizing, ") + way.name,
+                    static_cast<int>(sequence.local_maps.size()), invocation.common);
+  SeedRun run = run_and_judge({map, sequence, sequence.local_maps, options.values(), start, seed,
+                               sequence.odometry.has_value()},
+                              [&](int done) { progress.update(done); });
+  stop_if_interrupted();
+  write_run(folder, run.result);
+  draw_run(folder, {map, run.result, run.truth, &run.judgement->evaluation, way.name});
+  Manifest manifest = manifest_of(invocation, 1, {});
+  manifest.stages.push_back({"localize", run.result.update_s()});
+  write_manifest(folder, manifest, options.table(), options.origins());
+  return run;
+}
+
+std::string table(const std::vector<SeedRun>& runs) {
+  std::vector<std::vector<std::string>> rows{{"", "RMSE, m", "yaw, deg", "max, m", "maps/s"}};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Evaluation& e = runs[i].judgement->evaluation;
+    rows.push_back(
+        {kWays[i].name, fixed(e.ape_translation_m.rmse, 3), fixed(degrees(e.ape_yaw_rad.rmse), 2),
+         fixed(e.ape_translation_m.max, 2),
+         fixed(static_cast<double>(runs[i].result.records.size()) / runs[i].result.update_s(), 1)});
+  }
+  return text_table(rows);
+}
+
+void report(const std::vector<SeedRun>& runs, const DemoOptions& options,
+            const Invocation& invocation) {
+  const std::string out = options.output.string();
+  if (!invocation.common.json) {
+    print(table(runs) +
+          fmt::format("\nopen {}/run/trajectory.png and {}/run/swarm.png\n", out, out));
+    return;
+  }
+  Json document{{"output", out}, {"seed", invocation.common.seed}};
+  document["runs"] = Json::array();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Json run = to_json(runs[i]);
+    run["name"] = kWays[i].name;
+    run["folder"] = out + "/" + kWays[i].folder;
+    document["runs"].push_back(std::move(run));
+  }
+  print(document);
+}
+
+int run(const DemoOptions& options, const Invocation& invocation) {
+  require_device(invocation.common);
+  const ThreadLimit limit(invocation.common);
+  require_writable(options.output, invocation.common, {});
+  explain(options, invocation);
+  if (invocation.common.dry_run) {
+    if (invocation.common.json) print(Json{{"dry_run", true}, {"output", options.output.string()}});
+    return 0;
+  }
+  const Stopwatch stopwatch;
+  OutputFolder output(options.output, invocation.common, {});
+  write_demo_site(output.staging() / "site", invocation.common.seed);
+  const Sequence sequence = read_sequence(output.staging() / "site");
+  const Orthomosaic map = read_orthomosaic(map_path(sequence, {}));
+  std::vector<SeedRun> runs;
+  for (const Way& way : kWays) {
+    runs.push_back(run_way(way, map, sequence, output.staging() / way.folder, invocation));
+  }
+  Manifest manifest = manifest_of(invocation, limit.threads(), {});
+  manifest.stages.push_back({"demo", stopwatch.seconds()});
+  write_manifest(output.staging(), manifest, OptionTable{});
+  output.commit();
+  report(runs, options, invocation);
+  return 0;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<DemoOptions>(
+      program, invocation, "demo", "Simulate a drive, localize it three ways, compare", run);
+  verb->add_option("-o,--output", options.output, "Folder to write")
+      ->type_name("OUT")
+      ->capture_default_str();
+  add_writing_options(*verb, invocation.common);
+  add_computing_options(*verb, invocation.common);
+  verb->footer(
+      "Examples:\n"
+      "  nadir demo\n"
+      "  nadir demo -o /tmp/demo --seed 3 --overwrite\n");
+}
+
+}  // namespace nadir::cli

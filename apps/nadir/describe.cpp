@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "nadir/core/error.hpp"
+#include "nadir/io/image.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/sequence.hpp"
+#include "nadir/io/tum.hpp"
+
+namespace nadir::cli {
+namespace {
+
+double valid_share(const Orthomosaic& orthomosaic) {
+  const auto& valid = orthomosaic.valid.values();
+  const auto holes = std::ranges::count(valid, std::uint8_t{0});
+  return 1.0 - static_cast<double>(holes) / static_cast<double>(valid.size());
+}
+
+Json describe(const Orthomosaic& orthomosaic) {
+  const GeoReference& geo = orthomosaic.geo;
+  return {{"width_px", orthomosaic.width()},
+          {"height_px", orthomosaic.height()},
+          {"channels", orthomosaic.image.channels()},
+          {"resolution_m", geo.resolution},
+          {"extent_m",
+           {{"west", geo.west},
+            {"south", geo.y_at(orthomosaic.height())},
+            {"east", geo.x_at(orthomosaic.width())},
+            {"north", geo.north}}},
+          {"crs", geo.crs.empty() ? Json("local metres") : Json(geo.crs)},
+          {"valid_share", valid_share(orthomosaic)}};
+}
+
+/// A gap is a step of time beyond 1.5 times the usual one.
+constexpr double kGapFactor = 1.5;
+
+template <class Stamped>
+Json describe_stamps(const std::vector<Stamped>& items) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    steps.push_back(Stamp{items[i].stamp.nanoseconds - items[i - 1].stamp.nanoseconds}.seconds());
+  }
+  std::vector<double> sorted = steps;
+  std::ranges::sort(sorted);
+  const double usual = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
+  const auto gaps =
+      std::ranges::count_if(steps, [=](double step) { return step > kGapFactor * usual; });
+  return {{"first_s", to_string(items.front().stamp)},
+          {"last_s", to_string(items.back().stamp)},
+          {"median_step_s", usual},
+          {"longest_step_s", sorted.empty() ? 0.0 : sorted.back()},
+          {"gaps", gaps}};
+}
+
+template <class In>
+Json describe_poses(const TrajectoryIn<In>& trajectory) {
+  Json document{{"poses", trajectory.size()}};
+  if (trajectory.empty()) return document;
+  double length = 0.0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    length += std::hypot(trajectory[i].pose.x - trajectory[i - 1].pose.x,
+                         trajectory[i].pose.y - trajectory[i - 1].pose.y);
+  }
+  document["length_m"] = length;
+  document["stamps"] = describe_stamps(trajectory);
+  return document;
+}
+
+}  // namespace
+
+Json describe_site(const std::filesystem::path& folder) {
+  const Sequence sequence = read_sequence(folder);
+  const auto& maps = sequence.local_maps;
+  Json document{{"kind", "site"}, {"path", folder.string()}, {"name", sequence.name}};
+  document["map"] = sequence.map ? describe(read_orthomosaic(*sequence.map)) : Json(nullptr);
+  document["local_maps"] = {{"count", maps.size()},
+                            {"first_frame", maps.front().number},
+                            {"last_frame", maps.back().number},
+                            {"stamps", describe_stamps(maps)},
+                            {"first", describe(read_frame(sequence, maps.front()).local)}};
+  document["odometry"] = sequence.odometry ? describe_poses(*sequence.odometry) : Json(nullptr);
+  document["truth"] = sequence.truth ? describe_poses(*sequence.truth) : Json(nullptr);
+  return document;
+}
+
+Json describe_image(const std::filesystem::path& path) {
+  const auto pixels = read_image(path);
+  Json document{{"kind", "image"}, {"path", path.string()}};
+  try {
+    document.update(describe(read_orthomosaic(path)));
+    document["kind"] = "orthomosaic";
+  } catch (const Error& error) {
+    // An image that is readable and lies nowhere is still worth describing.
+    document.update(Json{{"width_px", pixels.width()},
+                         {"height_px", pixels.height()},
+                         {"channels", pixels.channels()},
+                         {"georeference", nullptr},
+                         {"note", error.what()}});
+  }
+  return document;
+}
+
+Json describe_trajectory(const std::filesystem::path& path) {
+  Json document{{"kind", "trajectory"}, {"path", path.string()}};
+  document.update(describe_poses(read_tum(path)));
+  return document;
+}
+
+}  // namespace nadir::cli

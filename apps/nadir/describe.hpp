@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "streams.hpp"
+
+namespace nadir::cli {
+
+/// What `nadir info` says of each kind of input. Throw Error (input).
+Json describe_site(const std::filesystem::path& folder);
+Json describe_image(const std::filesystem::path& path);
+Json describe_trajectory(const std::filesystem::path& path);
+
+}  // namespace nadir::cli

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effective_options.hpp"
+
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "nadir/core/error.hpp"
+
+namespace nadir::cli {
+namespace {
+
+/// "NADIR_MAP_MATCHING_" for every stage: variables that begin otherwise are none of ours.
+std::set<std::string> environment_prefixes(const OptionTable& table) {
+  std::set<std::string> prefixes;
+  for (const Option& option : table.options()) {
+    prefixes.insert(environment_name(option.name.substr(0, option.name.find('.') + 1)));
+  }
+  return prefixes;
+}
+
+Error unknown_variable(const std::string& variable, const OptionTable& table) {
+  std::vector<std::string> known;
+  for (const Option& option : table.options()) known.push_back(environment_name(option.name));
+  const std::string nearest = nearest_name(variable, known);
+  return {ErrorKind::kUsage, "unknown option '" + variable + "'", "environment",
+          nearest.empty() ? "`nadir config dump` lists all options"
+                          : "did you mean '" + nearest + "'?"};
+}
+
+}  // namespace
+
+std::string environment_name(const std::string& option) {
+  std::string name = "NADIR_" + option;
+  std::ranges::transform(name, name.begin(), [](unsigned char letter) {
+    return letter == '.' ? '_' : static_cast<char>(std::toupper(letter));
+  });
+  return name;
+}
+
+void add_option_sources(CLI::App& verb, OptionSources& sources) {
+  verb.add_option("--preset", sources.preset,
+                  "Options to start from: default, or paper (its protocol)")
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  verb.add_option("--config", sources.config, "YAML file of options, as `config dump` prints it");
+  verb.add_option("--set", sources.sets, "Set any option: STAGE.NAME=VALUE (may be repeated)")
+      ->allow_extra_args(false);
+}
+
+void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& flag,
+                     const std::string& option) {
+  LocalizerOptions values;
+  const OptionTable table = option_table(values);
+  const Option* declared = table.find(option);
+  if (declared == nullptr) throw CLI::BadNameString("no option is named " + option);
+  const auto bound = std::make_shared<OptionSources::Flag>(OptionSources::Flag{flag, option, {}});
+  sources.flags.push_back(bound);
+  verb.add_option_function<std::string>(
+      flag, [bound](const std::string& value) { bound->value = value; },
+      declared->description + " Allowed: " + declared->allowed + " (" + option + ")");
+}
+
+EffectiveOptions::EffectiveOptions(const OptionSources& sources) : table_(option_table(values_)) {
+  apply_preset(sources.preset);
+  if (!sources.config.empty()) {
+    for (const auto& [name, place] : read_yaml_options(sources.config, table_)) {
+      origins_[name] = place;
+    }
+  }
+  apply_environment();
+  for (const std::string& assignment : sources.sets) apply_set(assignment);
+  for (const auto& flag : sources.flags) {
+    if (flag->value) set(flag->option, *flag->value, flag->flag);
+  }
+}
+
+void EffectiveOptions::set(const std::string& name, const std::string& value,
+                           const std::string& origin) {
+  table_.set(name, value, origin);
+  origins_[name] = origin;
+}
+
+void EffectiveOptions::apply_preset(const std::string& preset) {
+  if (preset != "paper") return;
+  values_ = LocalizerOptions::paper();
+  for (const Option& option : table_.options()) {
+    if (option.get() != option.default_value) origins_[option.name] = "preset paper";
+  }
+}
+
+void EffectiveOptions::apply_environment() {
+  const std::set<std::string> prefixes = environment_prefixes(table_);
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string assignment = *entry;
+    const std::string variable = assignment.substr(0, assignment.find('='));
+    if (std::ranges::none_of(
+            prefixes, [&](const std::string& prefix) { return variable.starts_with(prefix); })) {
+      continue;
+    }
+    const auto& options = table_.options();
+    const auto option = std::ranges::find_if(
+        options, [&](const Option& known) { return environment_name(known.name) == variable; });
+    if (option == options.end()) throw unknown_variable(variable, table_);
+    set(option->name, assignment.substr(variable.size() + 1), variable);
+  }
+}
+
+void EffectiveOptions::apply_set(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw Error(ErrorKind::kUsage, "'" + assignment + "' has no value", "--set",
+                "write STAGE.NAME=VALUE");
+  }
+  set(assignment.substr(0, equals), assignment.substr(equals + 1), "--set");
+}
+
+}  // namespace nadir::cli

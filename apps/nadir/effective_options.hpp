@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "invocation.hpp"
+#include "nadir/io/yaml_options.hpp"
+#include "nadir/localizer.hpp"
+
+namespace nadir::cli {
+
+/// What the user says about the options of a run, in any of the ways there are.
+struct OptionSources {
+  std::string preset = "default";
+  std::filesystem::path config;   ///< empty = none
+  std::vector<std::string> sets;  ///< "stage.name=value"
+
+  /// A flag of its own for one option: "--score".
+  struct Flag {
+    std::string flag;
+    std::string option;
+    std::optional<std::string> value;
+  };
+  std::vector<std::shared_ptr<Flag>> flags;
+};
+
+/// Adds --preset, --config, --set.
+void add_option_sources(CLI::App& verb, OptionSources& sources);
+/// Adds a flag that sets one option of the table; its help is the declaration's.
+void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& flag,
+                     const std::string& option);
+
+/// The options of a run, and where each value came from. By rising precedence: default, preset,
+/// config file, environment (NADIR_MAP_MATCHING_SCORE), --set, flag.
+class EffectiveOptions {
+ public:
+  /// Throws Error (usage) for a name or a value that no option knows, (input) for a config file
+  /// that cannot be read.
+  explicit EffectiveOptions(const OptionSources& sources);
+  EffectiveOptions(const EffectiveOptions&) = delete;
+  EffectiveOptions& operator=(const EffectiveOptions&) = delete;
+
+  const LocalizerOptions& values() const { return values_; }
+  const OptionTable& table() const { return table_; }
+  const OptionOrigins& origins() const { return origins_; }
+
+ private:
+  void set(const std::string& name, const std::string& value, const std::string& origin);
+  void apply_preset(const std::string& preset);
+  void apply_environment();
+  void apply_set(const std::string& assignment);
+
+  LocalizerOptions values_;
+  OptionTable table_;
+  OptionOrigins origins_;
+};
+
+/// "NADIR_MAP_MATCHING_SCORE" for "map_matching.score".
+std::string environment_name(const std::string& option);
+
+}  // namespace nadir::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nadir/evaluation/consistency.hpp"
+#include "nadir/evaluation/evaluation.hpp"
+#include "nadir/evaluation/summary.hpp"
+#include "streams.hpp"
+
+namespace nadir::cli {
+
+/// An evaluation with what belongs to it. Angles become degrees here.
+struct Judgement {
+  Evaluation evaluation;
+  Alignment alignment = Alignment::kNone;
+  std::optional<Consistency> consistency;
+};
+
+Json to_json(const Judgement& judgement);
+Json to_json(const SeedSummary& summary);
+
+/// Tables for reading.
+std::string to_table(const Judgement& judgement);
+std::string to_table(const SeedSummary& summary);
+
+}  // namespace nadir::cli

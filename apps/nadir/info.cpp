@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "add_verb.hpp"
+#include "describe.hpp"
+#include "nadir/core/error.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoOptions {
+  fs::path path;
+};
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return extension;
+}
+
+Json describe(const fs::path& path) {
+  static const std::set<std::string> kImages{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
+  static const std::set<std::string> kTrajectories{".tum", ".txt"};
+  if (!fs::exists(path)) {
+    throw Error(ErrorKind::kInput, "there is no such file or folder", path.string());
+  }
+  if (fs::is_directory(path)) return describe_site(path);
+  if (kImages.contains(lower_extension(path))) return describe_image(path);
+  if (kTrajectories.contains(lower_extension(path))) return describe_trajectory(path);
+  throw Error(ErrorKind::kInput, "unknown kind of file", path.string(),
+              "info reads site folders, GeoTIFF, VRT, PNG, JPEG and TUM files (.tum, .txt)");
+}
+
+/// "key: value" lines, nested by indentation.
+std::string readable(const Json& document, const std::string& indent) {
+  std::string text;
+  for (const auto& [key, value] : document.items()) {
+    if (value.is_object()) {
+      text += indent + key + ":\n" + readable(value, indent + "  ");
+    } else {
+      const std::string shown = value.is_null() ? "none" : value.dump();
+      text += indent + key + ": " + (value.is_string() ? value.get<std::string>() : shown) + "\n";
+    }
+  }
+  return text;
+}
+
+int run(const InfoOptions& options, const Invocation& invocation) {
+  const Json document = describe(options.path);
+  invocation.common.json ? print(document) : print(readable(document, ""));
+  return 0;
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<InfoOptions>(
+      program, invocation, "info", "Say what a site, an orthomosaic or a trajectory holds", run);
+  verb->add_option("path", options.path, "Site folder, GeoTIFF or image, or TUM trajectory")
+      ->type_name("PATH")
+      ->required();
+  verb->footer(
+      "Examples:\n"
+      "  nadir info out/aeroground\n"
+      "  nadir info campus.tif --json\n");
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "libraries.hpp"
+
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+#include <oneapi/tbb/version.h>
+
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "text_table.hpp"
+
+namespace nadir::cli {
+namespace {
+
+std::string proj_version() {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  OSRGetPROJVersion(&major, &minor, &patch);
+  return fmt::format("{}.{}.{}", major, minor, patch);
+}
+
+}  // namespace
+
+std::string program_version() { return NADIR_VERSION; }
+
+std::vector<Library> libraries() {
+  return {
+      {"Eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
+       "MPL-2.0"},
+      {"OpenCV", cv::getVersionString(), "Apache-2.0"},
+      {"GDAL", GDALVersionInfo("RELEASE_NAME"), "MIT"},
+      {"PROJ", proj_version(), "MIT"},
+      {"oneTBB", TBB_runtime_version(), "Apache-2.0"},
+      {"pocketfft", "", "BSD-3-Clause"},
+      {"yaml-cpp", NADIR_YAML_CPP_VERSION, "MIT"},
+      {"CLI11", CLI11_VERSION, "BSD-3-Clause"},
+      {"nlohmann-json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                   NLOHMANN_JSON_VERSION_PATCH),
+       "MIT"},
+      {"fmt",
+       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
+       "MIT"},
+  };
+}
+
+std::string version_text() {
+  std::vector<std::vector<std::string>> rows{{"library", "version", "licence"}};
+  for (const Library& library : libraries()) {
+    rows.push_back(
+        {library.name, library.version.empty() ? "-" : library.version, library.licence});
+  }
+  return "nadir " + program_version() + ", Apache-2.0\n\n" + text_table(rows);
+}
+
+}  // namespace nadir::cli

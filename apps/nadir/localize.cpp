@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "add_verb.hpp"
+#include "localize_job.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+int run(const LocalizeOptions& options, const Invocation& invocation) {
+  require_device(invocation.common);
+  const ThreadLimit limit(invocation.common);
+  LocalizeJob job(options, invocation, limit.threads());
+  if (invocation.common.dry_run) return job.explain();
+  return job.run();
+}
+
+void add_inputs(CLI::App& verb, LocalizeOptions& options) {
+  verb.add_option("site", options.site, "Site folder")->type_name("SITE")->required();
+  verb.add_option("-o,--output", options.run, "Run folder to write")->type_name("RUN")->required();
+  verb.add_option("--map", options.map, "Orthomosaic to use instead of the site's")
+      ->type_name("FILE");
+  verb.add_option("--frames", options.frames, "Frames A:B, both included (default: all)")
+      ->type_name("A:B");
+  verb.add_option("--odometry", options.odometry,
+                  "file: the site's odometry; maps: registered from the local maps; auto: the file "
+                  "where there is one")
+      ->check(CLI::IsMember({"auto", "file", "maps"}))
+      ->capture_default_str();
+}
+
+void add_start(CLI::App& verb, LocalizeOptions& options) {
+  verb.add_option("--prior", options.start.prior,
+                  "Where to start: metres and degrees in the map; or truth, the first true pose "
+                  "moved by the seed within the spread")
+      ->type_name("X,Y,YAW_DEG|truth");
+  verb.add_option("--prior-spread", options.start.spread,
+                  "Particles start uniform in +-METRES and +-DEGREES around the prior")
+      ->type_name("METRES,DEGREES")
+      ->capture_default_str();
+  verb.add_option("--seeds", options.seeds, "Run this many seeds, from --seed on")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_localize(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<LocalizeOptions>(program, invocation, "localize",
+                                                   "Follow the robot through the map", run);
+  add_inputs(*verb, options);
+  add_start(*verb, options);
+  add_option_sources(*verb, options.sources);
+  add_option_flag(*verb, options.sources, "--score", "map_matching.score");
+  add_option_flag(*verb, options.sources, "--particles", "localization.particles");
+  add_writing_options(*verb, invocation.common);
+  add_computing_options(*verb, invocation.common);
+  verb->footer(
+      "Examples:\n"
+      "  nadir localize out/site -o out/run --prior 12.0,30.5,90\n"
+      "  nadir localize out/site -o out/run --prior truth --seed 3 --frames 160:224 --json\n"
+      "  nadir localize out/site -o out/paper --preset paper --score wncc --prior truth --seeds "
+      "20\n"
+      "RUN holds trajectory.tum (pose of the robot in the map), covariance.csv, frames.csv,\n"
+      "timing.csv, manifest.json and figures; with --seeds, a folder seed_K for each seed.\n");
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize_job.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "frame_range.hpp"
+#include "interrupt.hpp"
+#include "manifest_of.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/atomic_file.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "progress.hpp"
+#include "run_figures.hpp"
+#include "run_files.hpp"
+#include "site.hpp"
+#include "stopwatch.hpp"
+
+namespace nadir::cli {
+namespace {
+
+bool uses_odometry_file(const std::string& odometry, const Sequence& sequence) {
+  if (odometry == "file" && !sequence.odometry) {
+    throw Error(ErrorKind::kUsage, "the site has no odometry", "--odometry file",
+                "use --odometry maps");
+  }
+  return odometry != "maps" && sequence.odometry;
+}
+
+std::string seed_folder(std::uint64_t seed) { return "seed_" + std::to_string(seed); }
+
+}  // namespace
+
+LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invocation, int threads)
+    : options_(options),
+      invocation_(invocation),
+      threads_(threads),
+      effective_(options.sources),
+      sequence_(read_sequence(options.site)),
+      frames_(select_frames(sequence_, parse_frame_range(options.frames))),
+      map_file_(map_path(sequence_, options.map)),
+      use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
+  start_of(options.start, truth_of(sequence_, frames_), invocation.common.seed);
+  require_writable(options.run, invocation.common, inputs());
+}
+
+std::vector<std::filesystem::path> LocalizeJob::inputs() const {
+  std::vector<std::filesystem::path> inputs{options_.site};
+  if (!options_.map.empty()) inputs.push_back(options_.map);
+  return inputs;
+}
+
+int LocalizeJob::explain() const {
+  const Json plan{{"dry_run", true},
+                  {"site", options_.site.string()},
+                  {"map", map_file_.string()},
+                  {"frames", frames_.size()},
+                  {"odometry", use_odometry_file_ ? "file" : "maps"},
+                  {"seeds", options_.seeds},
+                  {"threads", threads_},
+                  {"output", options_.run.string()}};
+  if (invocation_.common.json) {
+    print(plan);
+  } else {
+    print(fmt::format("would localize {} frames of {} in {} with {} seeds, and write {}\n",
+                      frames_.size(), options_.site.string(), map_file_.string(), options_.seeds,
+                      options_.run.string()));
+  }
+  return 0;
+}
+
+std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
+                                            const std::filesystem::path& folder) {
+  const int per_seed = static_cast<int>(frames_.size());
+  Progress progress("localizing", per_seed * options_.seeds, invocation_.common);
+  std::vector<SeedRun> runs;
+  for (int k = 0; k < options_.seeds && !interrupted(); ++k) {
+    const std::uint64_t seed = invocation_.common.seed + static_cast<std::uint64_t>(k);
+    const Prior start = start_of(options_.start, truth_of(sequence_, frames_), seed);
+    const RunPlan plan{map,   sequence_, frames_,           effective_.values(),
+                       start, seed,      use_odometry_file_};
+    SeedRun run = run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
+    write_run(options_.seeds == 1 ? folder : folder / seed_folder(seed), run.result);
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
+                       const std::filesystem::path& folder) {
+  const Evaluation* evaluation = run.judgement ? &run.judgement->evaluation : nullptr;
+  const std::string title = fmt::format("{}, seed {}", sequence_.name, run.seed);
+  figures_ = draw_run(folder, {map, run.result, run.truth, evaluation, title});
+}
+
+void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
+                                      const std::filesystem::path& folder, double seconds) const {
+  const auto summary = summary_of(runs);
+  if (options_.seeds > 1 && summary) {
+    write_file(folder / "summary.json", to_json(*summary).dump(2) + "\n");
+  }
+  Manifest manifest = manifest_of(invocation_, threads_, inputs());
+  const bool partial = interrupted();
+  manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
+  write_manifest(folder, manifest, effective_.table(), effective_.origins());
+}
+
+void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
+  const auto summary = summary_of(runs);
+  if (!invocation_.common.json) {
+    std::string text = options_.seeds == 1 ? to_text(runs.front())
+                       : summary           ? to_table(*summary)
+                                           : std::to_string(runs.size()) + " seeds done\n";
+    print(text + "written to " + options_.run.string() + "\n");
+    return;
+  }
+  Json document = to_json(runs.front());
+  if (options_.seeds > 1) {
+    document = Json{{"summary", summary ? to_json(*summary) : Json(nullptr)}};
+    document["runs"] = Json::array();
+    for (const SeedRun& run : runs) document["runs"].push_back(to_json(run));
+  }
+  document["odometry"] = use_odometry_file_ ? "file" : "maps";
+  document["output"] = options_.run.string();
+  document["figures"] = figures_;
+  print(document);
+}
+
+int LocalizeJob::run() {
+  const Stopwatch stopwatch;
+  OutputFolder output(options_.run, invocation_.common, inputs());
+  const Orthomosaic map = read_orthomosaic(map_file_);
+  const std::vector<SeedRun> runs = run_seeds(map, output.staging());
+  if (runs.empty()) throw Interrupted{};
+  draw(map, runs.front(), output.staging());
+  write_summary_files(runs, output.staging(), stopwatch.seconds());
+  output.commit();
+  report(runs);
+  if (interrupted()) return kInterruptedExitCode;
+  if (std::ranges::any_of(runs, [](const SeedRun& run) { return run.result.answered() > 0; })) {
+    return 0;
+  }
+  throw Error(ErrorKind::kNoResult, "no local map could be compared with the map",
+              options_.site.string(), "check the prior and that map and site belong together");
+}
+
+}  // namespace nadir::cli

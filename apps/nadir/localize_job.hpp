@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "effective_options.hpp"
+#include "output_folder.hpp"
+#include "seed_run.hpp"
+
+namespace nadir::cli {
+
+struct LocalizeOptions {
+  std::filesystem::path site;
+  std::filesystem::path run;
+  std::filesystem::path map;
+  std::string frames;
+  std::string odometry = "auto";
+  PriorOptions start;
+  int seeds = 1;
+  OptionSources sources;
+};
+
+/// The work of `nadir localize`: read, run every seed, write, report.
+class LocalizeJob {
+ public:
+  /// Reads the site and checks all options. Throws Error (usage, input).
+  LocalizeJob(const LocalizeOptions& options, const Invocation& invocation, int threads);
+
+  /// --dry-run: says what would be done; returns the exit code.
+  int explain() const;
+  /// Returns the exit code: 0, 4 where no frame could be compared, 130 where it was interrupted.
+  int run();
+
+ private:
+  std::vector<std::filesystem::path> inputs() const;
+  std::vector<SeedRun> run_seeds(const Orthomosaic& map, const std::filesystem::path& folder);
+  void draw(const Orthomosaic& map, const SeedRun& run, const std::filesystem::path& folder);
+  void write_summary_files(const std::vector<SeedRun>& runs, const std::filesystem::path& folder,
+                           double seconds) const;
+  void report(const std::vector<SeedRun>& runs) const;
+
+  const LocalizeOptions& options_;
+  const Invocation& invocation_;
+  int threads_;
+  EffectiveOptions effective_;
+  Sequence sequence_;
+  std::vector<Sequence::LocalMap> frames_;
+  std::filesystem::path map_file_;
+  bool use_odometry_file_;
+  std::vector<std::string> figures_;
+};
+
+}  // namespace nadir::cli

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize_run.hpp"
+
+#include <algorithm>
+
+#include "interrupt.hpp"
+#include "nadir/core/error.hpp"
+#include "site.hpp"
+#include "stopwatch.hpp"
+
+namespace nadir::cli {
+namespace {
+
+constexpr std::size_t kSwarmCount = 6;
+
+/// Whether frame `index` of `count` is one of the instants, first and last among them, at which the
+/// swarm is kept.
+bool is_swarm_instant(std::size_t index, std::size_t count) {
+  if (count <= kSwarmCount) return true;
+  for (std::size_t k = 0; k < kSwarmCount; ++k) {
+    if (index == k * (count - 1) / (kSwarmCount - 1)) return true;
+  }
+  return false;
+}
+
+FrameRecord run_frame(Localizer& localizer, const RunPlan& plan,
+                      const Sequence::LocalMap& local_map) {
+  FrameRecord record;
+  record.number = local_map.number;
+  const Stopwatch decoding;
+  Frame frame = read_frame(plan.sequence, local_map);
+  record.decode_s = decoding.seconds();
+  if (!plan.use_odometry_file) frame.odom_from_robot.reset();
+  const Stopwatch updating;
+  record.estimate = localizer.update(frame);
+  record.update_s = updating.seconds();
+  return record;
+}
+
+double sum_over(const std::vector<FrameRecord>& records, double FrameRecord::*seconds) {
+  double sum = 0.0;
+  for (const FrameRecord& record : records) sum += record.*seconds;
+  return sum;
+}
+
+}  // namespace
+
+Trajectory RunResult::trajectory() const {
+  Trajectory trajectory;
+  for (const FrameRecord& record : records) {
+    trajectory.push_back({record.estimate.stamp, record.estimate.map_from_robot});
+  }
+  return trajectory;
+}
+
+int RunResult::answered() const {
+  return static_cast<int>(std::ranges::count_if(records, [](const FrameRecord& record) {
+    return record.estimate.status == EstimateStatus::kOk;
+  }));
+}
+
+double RunResult::update_s() const { return sum_over(records, &FrameRecord::update_s); }
+double RunResult::decode_s() const { return sum_over(records, &FrameRecord::decode_s); }
+
+RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& progress) {
+  RunResult result;
+  const Stopwatch preparing;
+  Localizer localizer(plan.map, plan.options, plan.seed);
+  localizer.start_near(plan.start.pose, plan.start.spread);
+  result.prepare_s = preparing.seconds();
+  for (std::size_t i = 0; i < plan.frames.size(); ++i) {
+    if (interrupted()) {
+      result.interrupted = true;
+      break;
+    }
+    const Sequence::LocalMap& local_map = plan.frames[i];
+    result.records.push_back(run_frame(localizer, plan, local_map));
+    if (is_swarm_instant(i, plan.frames.size())) {
+      const ParticleSet& particles = localizer.particles();
+      result.swarms.push_back({"frame " + std::to_string(local_map.number), particles.poses,
+                               particles.weights, result.records.back().estimate.map_from_robot,
+                               truth_at(plan.sequence, local_map.stamp)});
+    }
+    progress(static_cast<int>(i) + 1);
+  }
+  return result;
+}
+
+}  // namespace nadir::cli

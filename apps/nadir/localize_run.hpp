@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "nadir/io/sequence.hpp"
+#include "nadir/localizer.hpp"
+#include "nadir/report/figures.hpp"
+#include "prior.hpp"
+
+namespace nadir::cli {
+
+/// What to run.
+struct RunPlan {
+  const Orthomosaic& map;
+  const Sequence& sequence;
+  const std::vector<Sequence::LocalMap>& frames;
+  const LocalizerOptions& options;
+  Prior start;
+  std::uint64_t seed = 0;
+  bool use_odometry_file = true;  ///< else the odometry is registered from the local maps
+};
+
+struct FrameRecord {
+  int number = 0;
+  Estimate estimate;
+  double decode_s = 0.0;
+  double update_s = 0.0;
+};
+
+struct RunResult {
+  std::vector<FrameRecord> records;
+  std::vector<Swarm> swarms;  ///< at instants spread over the run, for the figure
+  double prepare_s = 0.0;     ///< the localizer's preparation of the map
+  bool interrupted = false;   ///< the records end early
+
+  Trajectory trajectory() const;
+  int answered() const;  ///< frames whose local map was compared
+  double update_s() const;
+  double decode_s() const;
+};
+
+/// Runs the localizer over the frames; `progress(done)` after each. Stops early at an interrupt.
+/// Times are those of one frame's decoding and of Localizer::update() alone.
+RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& progress);
+
+}  // namespace nadir::cli

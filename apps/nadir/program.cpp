@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+#include <new>
+
+#include "interrupt.hpp"
+#include "libraries.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/core/options.hpp"
+#include "streams.hpp"
+
+namespace nadir::cli {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  nadir demo -o out/demo\n"
+    "\n"
+    "`nadir VERB --help` explains a verb and shows examples.\n";
+
+/// The innermost verb that was named.
+const CLI::App& chosen(const CLI::App& program) {
+  const auto parsed = program.get_subcommands();
+  return parsed.empty() ? program : chosen(*parsed.back());
+}
+
+std::string full_name(const CLI::App& app) {
+  const CLI::App* parent = app.get_parent();
+  return parent == nullptr ? app.get_name() : full_name(*parent) + " " + app.get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> verb_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+/// Something that was typed and not understood: the nearest name helps.
+Error unknown(const std::string& kind, const std::string& typed,
+              const std::vector<std::string>& candidates, const std::string& help) {
+  const std::string nearest = nearest_name(typed, candidates);
+  return {ErrorKind::kUsage,
+          "unknown " + kind + " '" + typed + "'",
+          {},
+          nearest.empty() ? "see `" + help + "`" : "did you mean '" + nearest + "'?"};
+}
+
+Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App& verb = chosen(program);
+  const std::string help = full_name(verb) + " --help";
+  const std::vector<std::string> rest = program.remaining(true);
+  const auto dashed = std::ranges::find_if(
+      rest, [](const std::string& word) { return word.size() > 1 && word.starts_with('-'); });
+  if (!rest.empty() && !rest.front().starts_with('-') && !verb_names(verb).empty()) {
+    return unknown("verb", rest.front(), verb_names(verb), help);
+  }
+  if (dashed != rest.end()) {
+    return unknown("option", dashed->substr(0, dashed->find('=')), option_names(verb), help);
+  }
+  return {ErrorKind::kUsage, error.what(), full_name(verb), "see `" + help + "`"};
+}
+
+int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    print(chosen(program).help());
+    return 0;
+  } catch (const CLI::CallForVersion&) {
+    print(version_text());
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(program, error);
+  }
+  if (!invocation.action) {
+    print(program.help());
+    return 0;
+  }
+  return invocation.action();
+}
+
+}  // namespace
+
+int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
+  std::copy(argv + std::min(argc, 1), argv + argc, std::back_inserter(invocation.arguments));
+  program.require_subcommand(0, 1);
+  program.set_version_flag("--version", std::string{}, "Print version, libraries and licences");
+  program.footer(kExample);
+  try {
+    return run_parsed(program, invocation, argc, argv);
+  } catch (const Error& error) {
+    print_error(error.what());
+    return static_cast<int>(error.kind());
+  } catch (const Interrupted&) {
+    return kInterruptedExitCode;
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory; a smaller map or a coarser resolution needs less");
+  } catch (const std::exception& error) {
+    print_error(error.what());
+  }
+  return static_cast<int>(ErrorKind::kProcessing);
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_figures.hpp"
+
+#include <cmath>
+
+#include "nadir/io/image.hpp"
+
+namespace nadir::cli {
+namespace {
+
+/// A share without the noise of its last digits, which would otherwise become the scale of a plot.
+double rounded_share(double share) { return std::round(1e6 * share) / 1e6; }
+
+Figure diagnostics(const RunFigures& figures) {
+  Curve particles{"N_eff", {}, {}};
+  Curve score{"best score", {}, {}};
+  Curve valid{"valid weight", {}, {}};
+  Curve mass{"cluster mass", {}, {}};
+  for (const FrameRecord& record : figures.result.records) {
+    const double seconds = record.estimate.stamp.seconds();
+    for (Curve* curve : {&particles, &score, &valid, &mass}) curve->x.push_back(seconds);
+    particles.y.push_back(record.estimate.effective_particles);
+    score.y.push_back(record.estimate.best_score);
+    valid.y.push_back(rounded_share(record.estimate.valid_weight));
+    mass.y.push_back(rounded_share(record.estimate.cluster_mass));
+  }
+  return draw_panels({{"particles", {particles}}, {"score", {score}}, {"share", {valid, mass}}},
+                     "stamp, s", figures.title);
+}
+
+Figure errors(const RunFigures& figures) {
+  Curve position{"position error", {}, {}};
+  Curve yaw{"yaw error", {}, {}};
+  for (const PoseError& error : figures.evaluation->errors) {
+    for (Curve* curve : {&position, &yaw}) curve->x.push_back(error.stamp.seconds());
+    position.y.push_back(error.translation_m);
+    yaw.y.push_back(degrees(error.yaw_rad));
+  }
+  return draw_panels({{"error, m", {position}}, {"yaw error, deg", {yaw}}}, "stamp, s",
+                     figures.title);
+}
+
+}  // namespace
+
+std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures) {
+  std::vector<Track> tracks{{"estimate", figures.result.trajectory()}};
+  if (!figures.truth.empty()) tracks.push_back({"truth", figures.truth});
+  std::vector<std::string> names{"trajectory.png", "swarm.png", "diagnostics.png"};
+  write_png(folder / names[0], draw_trajectories(figures.map, tracks, figures.title));
+  write_png(folder / names[1], draw_swarms(figures.map, figures.result.swarms, figures.title));
+  write_png(folder / names[2], diagnostics(figures));
+  if (figures.evaluation != nullptr) {
+    names.emplace_back("error.png");
+    write_png(folder / names.back(), errors(figures));
+  }
+  return names;
+}
+
+}  // namespace nadir::cli

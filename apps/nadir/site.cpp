@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "site.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "nadir/core/error.hpp"
+#include "nadir/core/options.hpp"
+
+namespace nadir::cli {
+namespace {
+
+constexpr std::int64_t kSameInstantNs = 10'000'000;
+
+}  // namespace
+
+std::filesystem::path map_path(const Sequence& sequence, const std::filesystem::path& map) {
+  if (!map.empty()) return map;
+  if (sequence.map) return *sequence.map;
+  throw Error(ErrorKind::kUsage, "the site has no map", sequence.folder.string(),
+              "give one with --map FILE");
+}
+
+std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp) {
+  if (!sequence.truth) return std::nullopt;
+  const auto found = std::ranges::find_if(*sequence.truth, [&](const auto& stamped) {
+    return std::abs(stamped.stamp.nanoseconds - stamp.nanoseconds) <= kSameInstantNs;
+  });
+  if (found == sequence.truth->end()) return std::nullopt;
+  return found->pose;
+}
+
+Trajectory truth_of(const Sequence& sequence, const std::vector<Sequence::LocalMap>& frames) {
+  Trajectory truth;
+  if (!sequence.truth) return truth;
+  std::ranges::copy_if(*sequence.truth, std::back_inserter(truth), [&](const auto& stamped) {
+    return stamped.stamp >= frames.front().stamp && stamped.stamp <= frames.back().stamp;
+  });
+  return truth;
+}
+
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& flag, const std::string& form) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parse_number(text.substr(begin, comma - begin), flag));
+    begin = comma + 1;
+  }
+  if (numbers.size() != count) {
+    throw Error(ErrorKind::kUsage,
+                "'" + text + "' does not have " + std::to_string(count) + " numbers", flag,
+                "write " + form);
+  }
+  return numbers;
+}
+
+}  // namespace nadir::cli

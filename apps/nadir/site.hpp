@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nadir/core/orthomosaic.hpp"
+#include "nadir/core/trajectory.hpp"
+#include "nadir/io/sequence.hpp"
+
+namespace nadir::cli {
+
+/// The map to use: `map` if it was given, else the site's. Throws Error (usage) where there is
+/// none.
+std::filesystem::path map_path(const Sequence& sequence, const std::filesystem::path& map);
+
+/// The true pose at a stamp, within 0.01 s.
+std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp);
+
+/// The true poses from the first to the last of these frames.
+Trajectory truth_of(const Sequence& sequence, const std::vector<Sequence::LocalMap>& frames);
+
+/// Numbers separated by commas; throws Error (usage) that names `flag` where there are not
+/// `count` of them.
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& flag, const std::string& form);
+
+}  // namespace nadir::cli

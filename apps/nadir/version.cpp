@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "add_verb.hpp"
+#include "libraries.hpp"
+#include "streams.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+struct VersionOptions {};
+
+int run(const VersionOptions&, const Invocation& invocation) {
+  if (!invocation.common.json) {
+    print(version_text());
+    return 0;
+  }
+  Json document{{"nadir", program_version()}, {"licence", "Apache-2.0"}};
+  document["libraries"] = Json::array();
+  for (const Library& library : libraries()) {
+    document["libraries"].push_back(
+        {{"name", library.name}, {"version", library.version}, {"licence", library.licence}});
+  }
+  print(document);
+  return 0;
+}
+
+}  // namespace
+
+void add_version(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<VersionOptions>(
+      program, invocation, "version", "Print the version, the libraries and their licences", run);
+  verb->footer("Example:\n  nadir version --json\n");
+}
+
+}  // namespace nadir::cli
