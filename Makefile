@@ -33,7 +33,7 @@ asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, 
 	cmake --build --preset asan -j $(JOBS)
 	ctest --preset asan -j $(JOBS)
 
-tsan: deps  ## the tests under ThreadSanitizer, slow ones left out
+tsan: deps  ## the tests that use threads, under ThreadSanitizer
 	cmake --preset tsan
 	$(NO_ASLR) cmake --build --preset tsan -j $(JOBS)
 	$(NO_ASLR) ctest --preset tsan -j $(JOBS)

@@ -33,14 +33,18 @@ function(nadir_add_library name)
   set_property(GLOBAL APPEND PROPERTY NADIR_LIBRARIES nadir_${name})
 endfunction()
 
-# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL label]): one GoogleTest program.
-# The label `slow` leaves it out under the sanitizers.
+# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL slow]): one GoogleTest program.
+# The label `slow` leaves it out under the sanitizers. What links a library that computes on several
+# threads is labelled `threads` and runs under ThreadSanitizer.
 function(nadir_add_test name)
   cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE nadir_build_flags ${arg_LIBRARIES} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${name} PRIVATE NADIR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(NOT arg_LABEL AND arg_LIBRARIES MATCHES "nadir::(map_matching|nadir)(;|$)")
+    set(arg_LABEL threads)
+  endif()
   set(properties TIMEOUT 600)
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})

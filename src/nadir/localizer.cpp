@@ -19,6 +19,13 @@ PoseScore best_of(const std::vector<PoseScore>& scores) {
   return best;
 }
 
+/// The covariance that the maps themselves contribute.
+PoseCovariance map_error(const LocalizationOptions& options) {
+  const double position = options.map_error_m * options.map_error_m;
+  const double yaw = radians(options.map_error_deg) * radians(options.map_error_deg);
+  return Eigen::Vector3d(position, position, yaw).asDiagonal();
+}
+
 EstimateStatus why_not(const std::vector<PoseScore>& scores, double min_valid_weight) {
   const bool overlap = std::any_of(scores.begin(), scores.end(), [=](const PoseScore& score) {
     return score.valid_weight >= min_valid_weight;
@@ -72,7 +79,16 @@ OptionTable option_table(LocalizerOptions& options) {
 }
 
 Localizer::Localizer(const Orthomosaic& map, const LocalizerOptions& options, std::uint64_t seed)
-    : options_(options), map_(map, options.matching), filter_(options.localization, seed) {}
+    : options_(options), map_(map, options.matching), filter_(options.localization, seed) {
+  const Score score = options.matching.score;
+  if (options.localization.likelihood == Likelihood::kLinear &&
+      (score == Score::kSsd || score == Score::kSad)) {
+    throw Error(
+        ErrorKind::kUsage,
+        "the score " + to_string(score) + " is never positive and cannot be a weight itself", {},
+        "set localization.likelihood to tempered or take another score");
+  }
+}
 
 void Localizer::start_near(const Pose2& prior, const Spread& spread) {
   filter_.start_near(prior, spread);
@@ -103,7 +119,7 @@ Estimate Localizer::update(const Frame& frame) {
   estimate.effective_particles = filter_.effective_particles();
   const std::vector<Cluster> clusters = filter_.clusters();
   estimate.map_from_robot = clusters.front().mean;
-  estimate.covariance = clusters.front().covariance;
+  estimate.covariance = clusters.front().covariance + map_error(options_.localization);
   estimate.cluster_mass = clusters.front().mass;
   estimate.clusters = static_cast<int>(clusters.size());
   if (weighed) estimate.resampled = filter_.resample_if_needed();

@@ -11,10 +11,11 @@ trap 'rm -rf "$work"' EXIT
 
 # consume CMAKE_ARGUMENT...: every program of the consumer must build, run and say something.
 consume() {
-  cmake -S "$source_dir/examples/consumer_project" -B "$work/consumer" -G Ninja \
+  cmake -S "$source_dir/examples/consumer_project" -B "$work/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$work/bin" "$@"
   cmake --build "$work/consumer"
   "$work/bin/frames" | grep -F "11.5 m east, 32.5 m north"
+  "$work/bin/localize" | grep -E "^off by 0?\.[0-9]+ m after 5 frames$"
 }
 
 case "${1:-}" in

@@ -21,6 +21,8 @@ LocalizationOptions LocalizationOptions::paper() {
   options.odometry_scale_walk = 0.0;
   options.roughening_m = 0.1;
   options.roughening_deg = 2.0;
+  options.map_error_m = 0.0;
+  options.map_error_deg = 0.0;
   options.cluster_estimate = false;
   return options;
 }
@@ -82,6 +84,12 @@ void declare(OptionTable& table, LocalizationOptions& options) {
                "Noise added to positions when resampling, metres.", "paper, section IV: 0.1");
   table.number(stage + "roughening_deg", options.roughening_deg, {0.0, 90.0},
                "Noise added to headings when resampling, degrees.", "paper, section IV: 2");
+  table.number(stage + "map_error_m", options.map_error_m, {0.0, 100.0},
+               "Standard deviation of the two maps' own error, which no filtering averages out: "
+               "added to the reported covariance, along each axis, metres.",
+               "paper, section III: the global map is within 0.1 m");
+  table.number(stage + "map_error_deg", options.map_error_deg, {0.0, 90.0},
+               "The same for the heading, degrees.", measured);
   table.flag(stage + "cluster_estimate", options.cluster_estimate,
              "Report the mean of the heaviest cluster; off: the mean of all particles.");
   table.number(stage + "cluster_bin_m", options.cluster_bin_m, {1e-3, 100.0},

@@ -49,6 +49,9 @@ struct LocalizationOptions {
   double roughening_m = 0.0;
   double roughening_deg = 0.0;
 
+  double map_error_m = 0.1;
+  double map_error_deg = 0.4;
+
   double cluster_bin_m = 0.5;
   double cluster_bin_deg = 5.0;
   bool cluster_estimate = true;

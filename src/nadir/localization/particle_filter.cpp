@@ -138,15 +138,18 @@ bool ParticleFilter::resample_if_needed() {
   const bool crowded = particles_.size() > static_cast<std::size_t>(options_.particles);
   const bool always = crowded || options_.resample_below >= 1.0;
   if (!always && effective_particles() >= options_.resample_below * count) return false;
-  resample(options_.adaptive ? kld_particles(particles_, options_)
-                             : static_cast<std::size_t>(options_.particles));
+  resample(static_cast<std::size_t>(options_.particles), Purpose::kResample);
+  if (options_.adaptive) {
+    const std::size_t enough = kld_particles(particles_, options_);
+    if (enough < particles_.size()) resample(enough, Purpose::kThin);
+  }
   roughen();
   return true;
 }
 
-void ParticleFilter::resample(std::size_t count) {
+void ParticleFilter::resample(std::size_t count, Purpose purpose) {
   const std::vector<std::size_t> indices =
-      draw_indices(options_.resampling, particles_.weights, count, stream(Purpose::kResample));
+      draw_indices(options_.resampling, particles_.weights, count, stream(purpose));
   ParticleSet drawn;
   for (const std::size_t index : indices) {
     drawn.poses.push_back(particles_.poses[index]);

@@ -44,11 +44,19 @@ class ParticleFilter {
 
  private:
   /// What a random number is for: each purpose of each step has a stream of its own.
-  enum class Purpose : std::uint64_t { kStart, kMotion, kScale, kResample, kRoughen, kCount };
+  enum class Purpose : std::uint64_t {
+    kStart,
+    kMotion,
+    kScale,
+    kResample,
+    kThin,
+    kRoughen,
+    kCount
+  };
   RandomStream stream(Purpose purpose) const;
   /// The temper, lowered where it would leave fewer effective particles than allowed.
   double bounded_temper(std::span<const double> scores) const;
-  void resample(std::size_t count);
+  void resample(std::size_t count, Purpose purpose);
   void roughen();
 
   LocalizationOptions options_;

@@ -9,19 +9,45 @@
 #include "nadir/map_matching/cpu/paper_surface.hpp"
 #include "nadir/map_matching/cpu/pose_scorer.hpp"
 #include "nadir/map_matching/cpu/sad_surface.hpp"
+#include "nadir/map_matching/cpu/sampled_score.hpp"
 #include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
 namespace {
 
-/// One pose by the reference: scores without closed form, and holes that take part.
-std::vector<PoseScore> score_one_by_one(const MapIndex& map, const Template& local,
-                                        std::span<const Pose2> poses) {
-  std::vector<PoseScore> scores(poses.size());
-  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
-    scores[i] = reference_backend().score_poses(map, local, poses.subspan(i, 1)).front();
-  });
+/// Far outside nothing can overlap, and an integer could overflow.
+bool is_near(const MapIndex& map, const Pose2& pose) {
+  constexpr double kFarthestPx = 1e8;
+  const PixelCoordinate at = map.channel().geo.pixel_at(pose.x, pose.y);
+  return std::abs(at.column) < kFarthestPx && std::abs(at.row) < kFarthestPx &&
+         std::isfinite(pose.yaw);
+}
+
+/// Scores every pose near the map by `score`, in parallel; the others are undefined.
+template <class ScorePose>
+std::vector<PoseScore> score_each(const MapIndex& map, std::span<const Pose2> poses,
+                                  const ScorePose& score) {
+  constexpr std::size_t kGrain = 16;
+  std::vector<PoseScore> scores(poses.size(), {std::numeric_limits<double>::quiet_NaN(), 0.0});
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        if (is_near(map, poses[i])) scores[i] = score(poses[i]);
+                      }
+                    });
   return scores;
+}
+
+PoseScore closed_form_score(const MapIndex& map, const cpu::PixelList& pixels, const Pose2& pose) {
+  PoseScore result{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  if (pixels.total_seen <= 0.0) return result;
+  const PixelCoordinate at = map.channel().geo.pixel_at(pose.x, pose.y);
+  const cpu::Sums sums = cpu::sum_at(
+      map.quads(), pixels, {at.column - 0.5, at.row - 0.5, std::cos(pose.yaw), std::sin(pose.yaw)});
+  result.valid_weight = sums.a / pixels.total_seen;
+  if (result.valid_weight < map.options().min_valid_weight) return result;
+  result.score = cpu::score_from_sums(map.options().score, sums, pixels.shifts);
+  return result;
 }
 
 class CpuBackend : public MatchingBackend {
@@ -44,39 +70,12 @@ class CpuBackend : public MatchingBackend {
                                      std::span<const Pose2> poses) const override {
     const MatchingOptions& options = map.options();
     if (!cpu::is_closed_form(options.score) || pixel_role(options).whole_square) {
-      return score_one_by_one(map, local, poses);
+      return score_each(map, poses, cpu::SampledScorer(map, local));
     }
-    const GeoReference& geo = map.channel().geo;
     const cpu::PixelList pixels =
-        cpu::list_pixels(local.channel, options, geo.resolution, map.mean_grey());
-    std::vector<PoseScore> scores(poses.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), 16),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          scores[i] = score_pose(map, pixels, poses[i]);
-                        }
-                      });
-    return scores;
-  }
-
- private:
-  static PoseScore score_pose(const MapIndex& map, const cpu::PixelList& pixels,
-                              const Pose2& pose) {
-    PoseScore result{std::numeric_limits<double>::quiet_NaN(), 0.0};
-    const PixelCoordinate at = map.channel().geo.pixel_at(pose.x, pose.y);
-    // Far outside nothing can overlap, and an integer could overflow.
-    constexpr double kFarthest = 1e8;
-    if (!(std::abs(at.column) < kFarthest && std::abs(at.row) < kFarthest) ||
-        !std::isfinite(pose.yaw) || pixels.total_seen <= 0.0) {
-      return result;
-    }
-    const cpu::Sums sums =
-        cpu::sum_at(map.quads(), pixels,
-                    {at.column - 0.5, at.row - 0.5, std::cos(pose.yaw), std::sin(pose.yaw)});
-    result.valid_weight = sums.a / pixels.total_seen;
-    if (result.valid_weight < map.options().min_valid_weight) return result;
-    result.score = cpu::score_from_sums(map.options().score, sums, pixels.shifts);
-    return result;
+        cpu::list_pixels(local.channel, options, map.channel().geo.resolution, map.mean_grey());
+    return score_each(map, poses,
+                      [&](const Pose2& pose) { return closed_form_score(map, pixels, pose); });
   }
 };
 
