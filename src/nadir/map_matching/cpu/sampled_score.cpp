@@ -45,6 +45,7 @@ PoseScore SampledScorer::operator()(const Pose2& map_from_robot) const {
   };
 
   reference::PixelPairs pairs;
+  for (auto* values : {&pairs.map, &pairs.local, &pairs.weight}) values->reserve(pixels_.size());
   double compared = 0.0;
   for (const Pixel& pixel : pixels_) {
     const double column = robot.column - 0.5 + (cosine * pixel.x - sine * pixel.y) / geo.resolution;
