@@ -56,6 +56,7 @@ std::optional<Motion2> register_local_maps(const Orthomosaic& earlier, const Ort
   matching.channel = Channel::kGrey;
   matching.resolution_m = options.resolution_m;
   matching.min_valid_weight = kMinOverlap;
+  matching.candidates = 1;
   const MapIndex map(earlier, matching);
   const Template local = make_template(later, matching);
   // Frames may be missing: where nothing fits near by, look twice as far, up to where the two maps
