@@ -38,9 +38,10 @@ tsan: deps  ## the tests that use threads, under ThreadSanitizer
 	$(NO_ASLR) cmake --build --preset tsan -j $(JOBS)
 	$(NO_ASLR) ctest --preset tsan -j $(JOBS)
 
-docs: build  ## write docs/options.md from the declarations of the options
+docs: build  ## write docs/options.md and the figures that the project draws itself
 	build/release/bin/nadir config dump --markdown > build/options.md
 	cp build/options.md docs/options.md
+	build/release/bin/docs_figures docs/images
 
 clean:  ## remove what was built and what the demo wrote
 	rm -rf build out
