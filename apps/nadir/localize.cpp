@@ -20,7 +20,9 @@ void add_inputs(CLI::App& verb, LocalizeOptions& options) {
   verb.add_option("-o,--output", options.run, "Run folder to write")->type_name("RUN")->required();
   verb.add_option("--map", options.map, "Orthomosaic to use instead of the site's")
       ->type_name("FILE");
-  verb.add_option("--frames", options.frames, "Frames A:B, both included (default: all)")
+  verb.add_option("--frames", options.frames,
+                  "Frames A:B, both included (default: all; with --prior truth, from the first "
+                  "that has a true pose)")
       ->type_name("A:B");
   verb.add_option("--odometry", options.odometry,
                   "file: the site's odometry; maps: registered from the local maps; auto: the file "

@@ -17,6 +17,7 @@
 #include "run_files.hpp"
 #include "site.hpp"
 #include "stopwatch.hpp"
+#include "streams.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -29,6 +30,25 @@ bool uses_odometry_file(const std::string& odometry, const Sequence& sequence) {
   return odometry != "maps" && sequence.odometry;
 }
 
+/// The frames asked for. Where none are named, a start at the truth begins at the first frame that
+/// has one: the prior would not hold for the frames before it.
+std::vector<Sequence::LocalMap> frames_of(const LocalizeOptions& options, const Sequence& sequence,
+                                          bool quiet) {
+  std::vector<Sequence::LocalMap> frames =
+      select_frames(sequence, parse_frame_range(options.frames));
+  if (!options.frames.empty() || options.start.prior != "truth" || !sequence.truth) return frames;
+  const auto first = std::ranges::find_if(frames, [&](const Sequence::LocalMap& map) {
+    return truth_at(sequence, map.stamp).has_value();
+  });
+  if (first == frames.begin() || first == frames.end()) return frames;
+  print_note(
+      fmt::format("starting at frame {}, the first with a true pose; --frames A:B takes others",
+                  first->number),
+      quiet);
+  frames.erase(frames.begin(), first);
+  return frames;
+}
+
 std::string seed_folder(std::uint64_t seed) { return "seed_" + std::to_string(seed); }
 
 }  // namespace
@@ -39,7 +59,7 @@ LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invoc
       threads_(threads),
       effective_(options.sources),
       sequence_(read_sequence(options.site)),
-      frames_(select_frames(sequence_, parse_frame_range(options.frames))),
+      frames_(frames_of(options, sequence_, invocation.common.quiet)),
       map_file_(map_path(sequence_, options.map)),
       use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
   start_of(options.start, truth_of(sequence_, frames_), invocation.common.seed);
