@@ -2,13 +2,12 @@
 #include "checks.hpp"
 
 #include <fmt/format.h>
-#include <gdal.h>
-#include <ogr_srs_api.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 
+#include "nadir/io/gdal_info.hpp"
 #include "nadir/localizer.hpp"
 #include "nadir/simulation/drive.hpp"
 #include "stopwatch.hpp"
@@ -20,15 +19,13 @@ namespace {
 constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
 
 Check check_driver(const char* name, bool needed) {
-  const bool there = GDALGetDriverByName(name) != nullptr;
+  const bool there = has_gdal_driver(name);
   return {std::string("GDAL driver ") + name, there, needed,
           there ? "present" : "missing from this GDAL"};
 }
 
 Check check_proj_data() {
-  OGRSpatialReferenceH utm = OSRNewSpatialReference(nullptr);
-  const bool found = OSRImportFromEPSG(utm, 32650) == OGRERR_NONE;
-  OSRDestroySpatialReference(utm);
+  const bool found = knows_epsg_codes();
   return {"PROJ data", found, false,
           found ? "EPSG codes are known" : "proj.db not found: install proj-data or set PROJ_DATA"};
 }
@@ -63,7 +60,6 @@ std::vector<Check> check_backends() {
 }
 
 std::vector<Check> check_files() {
-  GDALAllRegister();
   return {check_driver("GTiff", true), check_driver("PNG", true),  check_driver("JPEG", true),
           check_driver("VRT", false),  check_driver("COG", false), check_proj_data()};
 }

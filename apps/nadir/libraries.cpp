@@ -2,8 +2,6 @@
 #include "libraries.hpp"
 
 #include <fmt/format.h>
-#include <gdal.h>
-#include <ogr_srs_api.h>
 #include <oneapi/tbb/version.h>
 
 #include <CLI/Version.hpp>
@@ -11,20 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "nadir/io/gdal_info.hpp"
 #include "text_table.hpp"
 
 namespace nadir::cli {
-namespace {
-
-std::string proj_version() {
-  int major = 0;
-  int minor = 0;
-  int patch = 0;
-  OSRGetPROJVersion(&major, &minor, &patch);
-  return fmt::format("{}.{}.{}", major, minor, patch);
-}
-
-}  // namespace
 
 std::string program_version() { return NADIR_VERSION; }
 
@@ -34,7 +22,7 @@ std::vector<Library> libraries() {
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
        "MPL-2.0"},
       {"OpenCV", cv::getVersionString(), "Apache-2.0"},
-      {"GDAL", GDALVersionInfo("RELEASE_NAME"), "MIT"},
+      {"GDAL", gdal_version(), "MIT"},
       {"PROJ", proj_version(), "MIT"},
       {"oneTBB", TBB_runtime_version(), "Apache-2.0"},
       {"pocketfft", "", "BSD-3-Clause"},

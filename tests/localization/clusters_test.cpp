@@ -69,6 +69,13 @@ TEST(FindClusters, TheTurnHasNoSeam) {
   EXPECT_NEAR(clusters.front().covariance(2, 2), 0.01, 0.002);
 }
 
+TEST(FindClusters, MassIsNeverAboveOne) {
+  ParticleSet set;
+  add_cloud(set, {}, 0.0, 0.0, 1000, 1.0, 0);
+  for (double& weight : set.weights) weight *= 1.0 + 1e-12;
+  EXPECT_EQ(find_clusters(set, {}).at(0).mass, 1.0);
+}
+
 TEST(FindClusters, NothingHasNoCluster) { EXPECT_TRUE(find_clusters({}, {}).empty()); }
 
 }  // namespace

@@ -260,6 +260,14 @@ TEST(DrawPanels, CurvesHaveGapsWhereValuesAreMissing) {
   EXPECT_NEAR(static_cast<double>(drawn(with_gap)) / drawn(whole), 0.4, 0.05);
 }
 
+TEST(DrawPanels, WhatIsConstantUpToRoundingIsDrawnAsConstant) {
+  const auto drawn = [](double x, double y) {
+    return draw_panels({{"value", {{"a", {3.0, x}, {0.3, y}}}}}, "frame", "");
+  };
+  EXPECT_EQ(drawn(4.0, 0.3), drawn(4.0, 0.1 + 0.2));
+  EXPECT_EQ(drawn(3.0, 0.3), drawn(30.0 * 0.1 * (1.0 + 1e-15), 0.3));
+}
+
 TEST(DrawPanels, EmptyAndOddInputsAreDrawn) {
   expect_sensible_size(draw_panels({}, "", ""));
   expect_sensible_size(draw_panels({{"nothing", {}}}, "frame", "t"));

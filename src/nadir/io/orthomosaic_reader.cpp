@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "nadir/io/gdal_geo_reference.hpp"
+#include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"

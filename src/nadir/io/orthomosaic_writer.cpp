@@ -10,7 +10,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/core/options.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/gdal_support.hpp"
+#include "nadir/io/detail/gdal_support.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 
 namespace nadir {

@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "nadir/io/detail/yaml_file.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
 #include "nadir/io/sequence_format.hpp"
 #include "nadir/io/tum.hpp"
-#include "nadir/io/yaml_file.hpp"
 
 namespace nadir {
 namespace {

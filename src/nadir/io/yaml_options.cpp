@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nadir/io/yaml_file.hpp"
+#include "nadir/io/detail/yaml_file.hpp"
 
 namespace nadir {
 namespace {

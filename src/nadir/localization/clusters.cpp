@@ -75,6 +75,7 @@ Cluster summarise(const ParticleSet& particles, const std::vector<std::size_t>& 
                                     wrap_angle(pose.yaw - cluster.mean.yaw));
     cluster.covariance += weight(i) * deviation * deviation.transpose();
   }
+  cluster.mass = std::min(cluster.mass, 1.0);  // the sum of all weights may round to above 1
   return cluster;
 }
 

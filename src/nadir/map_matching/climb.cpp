@@ -30,13 +30,13 @@ Pose2 moved(const Pose2& pose, const Eigen::Vector3d& by) {
 std::vector<Eigen::Vector3d> stencil(int axes) {
   std::vector<Eigen::Vector3d> offsets = {Eigen::Vector3d::Zero()};
   for (int a = 0; a < axes; ++a) {
-    offsets.push_back(Eigen::Vector3d::Unit(a));
-    offsets.push_back(-Eigen::Vector3d::Unit(a));
+    offsets.emplace_back(Eigen::Vector3d::Unit(a));
+    offsets.emplace_back(-Eigen::Vector3d::Unit(a));
   }
   for (int a = 0; a < axes; ++a) {
     for (int b = a + 1; b < axes; ++b) {
-      offsets.push_back(Eigen::Vector3d::Unit(a) + Eigen::Vector3d::Unit(b));
-      offsets.push_back(-Eigen::Vector3d::Unit(a) - Eigen::Vector3d::Unit(b));
+      offsets.emplace_back(Eigen::Vector3d::Unit(a) + Eigen::Vector3d::Unit(b));
+      offsets.emplace_back(-Eigen::Vector3d::Unit(a) - Eigen::Vector3d::Unit(b));
     }
   }
   return offsets;

@@ -22,9 +22,10 @@ std::vector<double> headings(const SearchRegion& region, double step) {
   const double half_range = std::min(std::abs(region.yaw_half_range_rad), kPi);
   if (half_range >= kPi - 1e-12) {
     const auto count = static_cast<int>(std::lround(std::ceil(2.0 * kPi / step - 1e-9)));
+    const int middle = count / 2;
     std::vector<double> yaws;
     for (int i = 0; i < count; ++i) {
-      yaws.push_back(region.yaw_rad + 2.0 * kPi * (i - count / 2) / count);
+      yaws.push_back(region.yaw_rad + 2.0 * kPi * (i - middle) / count);
     }
     return yaws;
   }

@@ -30,6 +30,9 @@ struct Interval {
     high = empty ? value : std::max(high, value);
     empty = false;
   }
+
+  /// One value, up to the rounding of how it was computed: too short for an axis.
+  bool is_point() const { return high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)); }
 };
 
 std::size_t length_of(const Curve& curve) { return std::min(curve.x.size(), curve.y.size()); }
@@ -42,7 +45,7 @@ Interval x_interval(const std::vector<Panel>& panels) {
     }
   }
   if (interval.empty) return {0.0, 1.0, true};
-  if (interval.high <= interval.low) return {interval.low - 0.5, interval.high + 0.5, false};
+  if (interval.is_point()) return {interval.low - 0.5, interval.high + 0.5, false};
   return interval;
 }
 
@@ -58,7 +61,7 @@ Interval y_interval(const Panel& panel, double& step) {
   if (empty) data = {0.0, 1.0, true};
   if (data.low > 0.0 && data.low < 0.6 * data.high) data.low = 0.0;
   if (data.high < 0.0 && data.high > 0.6 * data.low) data.high = 0.0;
-  if (data.high <= data.low) {
+  if (data.is_point()) {
     const double half = std::max(0.5, 0.1 * std::abs(data.low));
     data.low -= half;
     data.high += half;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/yaml_file.hpp"
+#include "nadir/io/detail/yaml_file.hpp"
 
 #include <algorithm>
 #include <set>

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "nadir/core/geo_reference.hpp"
-#include "nadir/io/gdal_support.hpp"
+#include "nadir/io/detail/gdal_support.hpp"
 
 namespace nadir {
 

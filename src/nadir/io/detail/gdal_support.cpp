@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/gdal_support.hpp"
+#include "nadir/io/detail/gdal_support.hpp"
 
 #include <mutex>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/gdal_geo_reference.hpp"
+#include "nadir/io/detail/gdal_geo_reference.hpp"
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
