@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -85,6 +86,20 @@ TEST(ResultTest, LocalizeWritesARunThatEvalJudgesAlike) {
   const Json part = json_of({"eval", run + "/trajectory.tum", "--truth",
                              (small_site() / "truth.tum").string(), "--frames", "2:4"});
   EXPECT_EQ(part["frames"], 3);
+}
+
+TEST(ResultTest, AStartAtTheTruthBeginsWhereTheTruthDoes) {
+  const fs::path site = copy_of_small_site("late_truth");
+  const std::string truth = read_file(site / "truth.tum");
+  std::size_t third = 0;
+  for (int line = 0; line < 3; ++line) third = truth.find('\n', third) + 1;  // and the comment
+  std::ofstream(site / "truth.tum") << truth.substr(third);
+  const std::vector<std::string> arguments = {
+      "localize", site.string(), "-o", scratch("late"), "--prior", "truth", "--dry-run"};
+  EXPECT_EQ(json_of(arguments)["frames"], kSmallSiteFrames - 2);
+  std::vector<std::string> named = arguments;
+  named.insert(named.end(), {"--frames", "0:100"});
+  EXPECT_EQ(json_of(named)["frames"], kSmallSiteFrames);
 }
 
 TEST(ResultTest, SeveralSeedsGiveMeanAndSpread) {
