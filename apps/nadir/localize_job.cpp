@@ -36,11 +36,18 @@ std::vector<Sequence::LocalMap> frames_of(const LocalizeOptions& options, const 
                                           bool quiet) {
   std::vector<Sequence::LocalMap> frames =
       select_frames(sequence, parse_frame_range(options.frames));
-  if (!options.frames.empty() || options.start.prior != "truth" || !sequence.truth) return frames;
+  if (options.start.prior != "truth" || !sequence.truth) return frames;
   const auto first = std::ranges::find_if(frames, [&](const Sequence::LocalMap& map) {
     return truth_at(sequence, map.stamp).has_value();
   });
   if (first == frames.begin() || first == frames.end()) return frames;
+  if (!options.frames.empty()) {
+    print_note(
+        fmt::format("the first true pose is that of frame {}: taken as the prior of frame {}",
+                    first->number, frames.front().number),
+        quiet);
+    return frames;
+  }
   print_note(
       fmt::format("starting at frame {}, the first with a true pose; --frames A:B takes others",
                   first->number),

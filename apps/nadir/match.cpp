@@ -55,13 +55,19 @@ std::vector<ScoredMatch> match_all(const MatchVerbOptions& options, const MatchS
   return matches;
 }
 
+std::string reason(MatchStatus status) {
+  return status == MatchStatus::kNoTexture
+             ? "the local map, or the map below it, is of one grey"
+             : "nowhere does enough of the local map lie on seen map: check --map, the window, the "
+               "holes of the local map, and map_matching.min_valid_weight";
+}
+
 void require_found(const std::vector<ScoredMatch>& matches, int frame) {
   if (std::ranges::any_of(matches, [](const auto& m) { return !m.result.candidates.empty(); })) {
     return;
   }
   throw Error(ErrorKind::kNoResult, "no place in the region could be compared",
-              "frame " + std::to_string(frame),
-              "its status is " + to_string(matches.front().result.status));
+              "frame " + std::to_string(frame), reason(matches.front().result.status));
 }
 
 int run(const MatchVerbOptions& options, const Invocation& invocation) {

@@ -23,6 +23,10 @@ Point2<frames::Map> off_centre(const Pose2& truth, double window_m, std::uint64_
 void choose_window(const RegionOptions& options, const std::optional<Pose2>& truth,
                    std::uint64_t seed, RegionChoice& choice) {
   if (!options.window_m) {
+    if (!options.centre.empty()) {
+      throw Error(ErrorKind::kUsage, "a centre needs the size of its window", "--centre",
+                  "give --window METRES too");
+    }
     choice.explanation = "whole map";
     return;
   }

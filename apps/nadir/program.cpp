@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "interrupt.hpp"
 #include "libraries.hpp"
@@ -73,6 +74,11 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   return {ErrorKind::kUsage, error.what(), full_name(verb), "see `" + help + "`"};
 }
 
+/// Also where the arguments could not be parsed to their end.
+bool wants_json(const Invocation& invocation) {
+  return invocation.common.json || std::ranges::count(invocation.arguments, "--json") > 0;
+}
+
 int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv) {
   try {
     program.parse(argc, argv);
@@ -104,7 +110,12 @@ int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
     return run_parsed(program, invocation, argc, argv);
   } catch (const Error& error) {
     print_error(error.what());
-    return static_cast<int>(error.kind());
+    const int exit_code = static_cast<int>(error.kind());
+    // Where nothing was found, the document that says so has been printed already.
+    if (wants_json(invocation) && error.kind() != ErrorKind::kNoResult) {
+      print(Json{{"error", {{"message", error.what()}, {"exit_code", exit_code}}}});
+    }
+    return exit_code;
   } catch (const Interrupted&) {
     return kInterruptedExitCode;
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nadir::cli {
 
@@ -26,6 +27,8 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string fixed(double value, int places) { return fmt::format("{:.{}f}", value, places); }
+std::string fixed(double value, int places) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, places) : "-";
+}
 
 }  // namespace nadir::cli

@@ -26,11 +26,15 @@ PoseCovariance map_error(const LocalizationOptions& options) {
   return Eigen::Vector3d(position, position, yaw).asDiagonal();
 }
 
-EstimateStatus why_not(const std::vector<PoseScore>& scores, double min_valid_weight) {
-  const bool overlap = std::any_of(scores.begin(), scores.end(), [=](const PoseScore& score) {
-    return score.valid_weight >= min_valid_weight;
-  });
-  return overlap ? EstimateStatus::kNoTexture : EstimateStatus::kNoOverlap;
+/// Why the frame said nothing: most of the cloud lies where too little can be compared, or what can
+/// be compared has no contrast.
+EstimateStatus why_not(const std::vector<PoseScore>& scores, const ParticleSet& particles,
+                       double min_valid_weight) {
+  double overlapping = 0.0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i].valid_weight >= min_valid_weight) overlapping += particles.weights[i];
+  }
+  return overlapping >= 0.5 ? EstimateStatus::kNoTexture : EstimateStatus::kNoOverlap;
 }
 
 void check(const Frame& frame, const std::optional<Frame>& previous) {
@@ -93,6 +97,7 @@ Localizer::Localizer(const Orthomosaic& map, const LocalizerOptions& options, st
 void Localizer::start_near(const Pose2& prior, const Spread& spread) {
   filter_.start_near(prior, spread);
   previous_.reset();
+  weighed_ = false;
 }
 
 Estimate Localizer::update(const Frame& frame) {
@@ -102,7 +107,11 @@ Estimate Localizer::update(const Frame& frame) {
   Estimate estimate;
   estimate.stamp = frame.stamp;
   const std::optional<Motion2> motion = motion_since_previous(frame);
-  if (previous_) filter_.predict(motion.value_or(last_motion_));
+  // Drawn anew only now, so that until here particles() showed the weights of the last frame.
+  if (previous_) {
+    if (weighed_) estimate.resampled = filter_.resample_if_needed();
+    filter_.predict(motion.value_or(last_motion_));
+  }
   if (motion) last_motion_ = *motion;
   if (!motion) estimate.status = EstimateStatus::kNoOdometry;
 
@@ -110,8 +119,9 @@ Estimate Localizer::update(const Frame& frame) {
   const std::vector<PoseScore> scores = score_poses(map_, local, filter_.particles().poses);
   std::vector<double> values;
   for (const PoseScore& score : scores) values.push_back(score.score);
-  const bool weighed = filter_.weigh(values);
-  if (!weighed) estimate.status = why_not(scores, options_.matching.min_valid_weight);
+  weighed_ = filter_.weigh(values);
+  if (!weighed_)
+    estimate.status = why_not(scores, filter_.particles(), options_.matching.min_valid_weight);
 
   const PoseScore best = best_of(scores);
   estimate.best_score = best.score;
@@ -122,7 +132,6 @@ Estimate Localizer::update(const Frame& frame) {
   estimate.covariance = clusters.front().covariance + map_error(options_.localization);
   estimate.cluster_mass = clusters.front().mass;
   estimate.clusters = static_cast<int>(clusters.size());
-  if (weighed) estimate.resampled = filter_.resample_if_needed();
   previous_ = frame;
   return estimate;
 }

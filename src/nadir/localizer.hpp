@@ -44,7 +44,7 @@ struct Estimate {
   double effective_particles = 0;  ///< before resampling
   double best_score = 0.0;         ///< of the particles; NaN where nothing was scored
   double valid_weight = 0.0;       ///< of the best particle
-  bool resampled = false;
+  bool resampled = false;          ///< before this frame's prediction
 };
 
 /// The whole of nadir in one class: odometry and local maps in, poses in the map out.
@@ -59,7 +59,7 @@ class Localizer {
   /// non-finite odometry or a stamp that does not increase; Error (usage) before start_near().
   Estimate update(const Frame& frame);
 
-  /// The particles after the last update.
+  /// The particles after the last update, with their weights.
   const ParticleSet& particles() const { return filter_.particles(); }
 
  private:
@@ -70,7 +70,8 @@ class Localizer {
   MapIndex map_;
   ParticleFilter filter_;
   std::optional<Frame> previous_;
-  Motion2 last_motion_;  ///< stands in where a motion is missing
+  bool weighed_ = false;  ///< the last frame changed the weights
+  Motion2 last_motion_;   ///< stands in where a motion is missing
 };
 
 }  // namespace nadir

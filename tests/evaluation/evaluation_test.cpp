@@ -176,8 +176,9 @@ TEST(EvaluationTest, TimeToConvergeIsTheLastEntryBelowOneMetre) {
   EXPECT_EQ(evaluate_offsets({0.5, 1.0}).time_to_converge_s, std::nullopt);
 }
 
-TEST(EvaluationTest, LostNeedsToHaveBeenFound) {
-  EXPECT_EQ(evaluate_offsets({3, 3, 3}).lost_count, 0);
+TEST(EvaluationTest, LostCountsEveryLossAndNeverFoundAsOne) {
+  EXPECT_EQ(evaluate_offsets({3, 3, 3}).lost_count, 1);
+  EXPECT_EQ(evaluate_offsets({1.5, 1.5}).lost_count, 0);
   EXPECT_EQ(evaluate_offsets({3, 0.5, 3, 3, 1.5, 3, 0.5, 2.0, 2.1}).lost_count, 2);
 }
 

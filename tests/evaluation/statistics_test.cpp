@@ -28,8 +28,8 @@ TEST(StatisticsTest, MedianOfAnOddCountIsTheMiddleOne) {
   EXPECT_DOUBLE_EQ(statistics(std::vector<double>{7.0}).median, 7.0);
 }
 
-TEST(StatisticsTest, EmptyIsAllZeroAndNotFiniteIsRefused) {
-  EXPECT_EQ(statistics({}).rmse, 0.0);
+TEST(StatisticsTest, EmptyIsNoNumberAndNotFiniteIsRefused) {
+  EXPECT_TRUE(std::isnan(statistics({}).rmse));
   EXPECT_THROW(statistics(std::vector<double>{1.0, std::numeric_limits<double>::quiet_NaN()}),
                Error);
 }

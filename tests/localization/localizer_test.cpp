@@ -91,6 +91,16 @@ TEST(Localizer, AFrameThatShowsNothingIsPredictedAndItsDoubtGrows) {
   EXPECT_LT(error(estimates[10], 10), 0.1);
 }
 
+TEST(Localizer, AnAllHoleFrameStopsNothingWithoutOdometryEither) {
+  std::vector<Frame> frames = drive(false);
+  auto& valid = frames[5].local.valid.values();
+  std::fill(valid.begin(), valid.end(), std::uint8_t{0});
+  const std::vector<Estimate> estimates = run({}, frames);
+  EXPECT_NE(estimates[5].status, EstimateStatus::kOk);
+  EXPECT_EQ(estimates[6].status, EstimateStatus::kNoOdometry);
+  EXPECT_LT(error(estimates[11], 11), 0.2);
+}
+
 // Authors' fault "map crop centred on the truth, so that the filter cannot get lost".
 TEST(Localizer, AWrongPriorIsNotPulledToTheTruthByMagic) {
   const Pose2 elsewhere{truth_at(0).x + 9.0, truth_at(0).y, truth_at(0).yaw};
@@ -134,9 +144,11 @@ TEST(Localizer, ThePaperPresetRuns) {
   LocalizerOptions options = LocalizerOptions::paper();
   for (const Score score : {Score::kNcc, Score::kWncc, Score::kWnccPaper}) {
     options.matching.score = score;
-    for (const Estimate& estimate : run(options, drive(true))) {
-      EXPECT_TRUE(estimate.map_from_robot.is_finite());
-      EXPECT_TRUE(estimate.resampled);
+    const std::vector<Estimate> estimates = run(options, drive(true));
+    EXPECT_FALSE(estimates.front().resampled);
+    for (std::size_t k = 1; k < estimates.size(); ++k) {
+      EXPECT_TRUE(estimates[k].map_from_robot.is_finite());
+      EXPECT_TRUE(estimates[k].resampled);
     }
   }
 }

@@ -128,13 +128,24 @@ TEST(ParticleFilter, BoundsWhatOneFrameMayDecide) {
 TEST(ParticleFilter, UndefinedScoresAreNoBetterThanTheWorst) {
   ParticleFilter filter(noiseless(), 1);
   filter.start_near({0.0, 0.0, 0.0}, {5.0, 0.0});
-  std::vector<double> scores(1000, NAN);
+  std::vector<double> scores(1000, 0.5);
   scores[7] = 0.9;
   scores[8] = 0.1;
+  scores[9] = NAN;
   ASSERT_TRUE(filter.weigh(scores));
   const auto& weights = filter.particles().weights;
   EXPECT_GT(weights[7], weights[8]);
   EXPECT_DOUBLE_EQ(weights[9], weights[8]);
+}
+
+// Seen on a robot that had left the map: the few particles at its rim won with a score of nothing.
+TEST(ParticleFilter, AFewThatCouldBeComparedDoNotWinOverTheManyThatCouldNot) {
+  ParticleFilter filter(noiseless(), 1);
+  filter.start_near({0.0, 0.0, 0.0}, {5.0, 0.0});
+  std::vector<double> scores(1000, NAN);
+  std::fill(scores.begin(), scores.begin() + 300, 0.2);
+  EXPECT_FALSE(filter.weigh(scores));
+  EXPECT_NEAR(filter.effective_particles(), 1000.0, 1e-6);
 }
 
 TEST(ParticleFilter, SameSeedSameBytes) {

@@ -35,14 +35,17 @@ std::optional<double> time_to_converge(std::span<const PoseError> errors, Stamp 
 int lost_count(std::span<const PoseError> errors) {
   int count = 0;
   bool found = false;
+  bool ever_found = false;
+  bool ever_beyond = false;
   for (const PoseError& error : errors) {
-    if (error.translation_m < kOneMetre) found = true;
+    if (error.translation_m < kOneMetre) found = ever_found = true;
+    if (error.translation_m > kLostBeyond) ever_beyond = true;
     if (found && error.translation_m > kLostBeyond) {
       ++count;
       found = false;
     }
   }
-  return count;
+  return !ever_found && ever_beyond ? 1 : count;
 }
 
 void add_absolute_errors(Evaluation& evaluation) {

@@ -43,7 +43,7 @@ struct Evaluation {
   /// From the first truth frame to the first after which every error stays under 1 m, seconds;
   /// nothing where the last one does not.
   std::optional<double> time_to_converge_s;
-  /// How often the error rose beyond 2 m after having been under 1 m.
+  /// How often the error rose beyond 2 m after having been under 1 m; once where it never was.
   int lost_count = 0;
 
   Similarity2 aligned_by;

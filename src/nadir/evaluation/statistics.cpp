@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "nadir/core/error.hpp"
@@ -19,7 +20,10 @@ double median_of_sorted(std::span<const double> sorted) {
 }  // namespace
 
 Statistics statistics(std::span<const double> errors) {
-  if (errors.empty()) return {};
+  if (errors.empty()) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    return {kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+  }
   if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) {
     throw Error(ErrorKind::kProcessing, "an error to be averaged is not a finite number");
   }

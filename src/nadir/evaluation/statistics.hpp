@@ -5,7 +5,7 @@
 
 namespace nadir {
 
-/// evo's words. All zero for an empty sample.
+/// evo's words. All NaN for an empty sample.
 struct Statistics {
   double rmse = 0.0;
   double mean = 0.0;

@@ -13,6 +13,8 @@ namespace nadir {
 namespace {
 
 constexpr int kTemperBisections = 20;
+/// Weight of the particles that must have been compared for a frame to count.
+constexpr double kMinComparedWeight = 0.5;
 
 /// weights * exp(temper * log_gain), normalised; nothing where all have vanished.
 std::optional<std::vector<double>> reweighed(std::span<const double> weights,
@@ -32,13 +34,19 @@ std::optional<std::vector<double>> reweighed(std::span<const double> weights,
   return result;
 }
 
-/// NaN where no score is defined.
-double lowest_defined(std::span<const double> scores) {
-  double lowest = std::numeric_limits<double>::quiet_NaN();
-  for (const double score : scores) {
-    if (!std::isnan(score) && !(score >= lowest)) lowest = score;
+/// The lowest defined score, and the weight of the particles that have one.
+struct Defined {
+  double lowest = std::numeric_limits<double>::infinity();
+  double weight = 0.0;
+};
+Defined defined_scores(std::span<const double> scores, std::span<const double> weights) {
+  Defined defined;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (std::isnan(scores[i])) continue;
+    defined.lowest = std::min(defined.lowest, scores[i]);
+    defined.weight += weights[i];
   }
-  return lowest;
+  return defined;
 }
 
 }  // namespace
@@ -98,8 +106,8 @@ void ParticleFilter::predict(const Motion2& motion) {
 }
 
 bool ParticleFilter::weigh(std::span<const double> scores) {
-  const double lowest = lowest_defined(scores);
-  if (std::isnan(lowest)) return false;
+  const auto [lowest, weight] = defined_scores(scores, particles_.weights);
+  if (weight < kMinComparedWeight) return false;
   // A pose that could not be compared is no better than the worst that could.
   std::vector<double> defined(scores.begin(), scores.end());
   std::replace_if(

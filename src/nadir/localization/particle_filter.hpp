@@ -32,7 +32,9 @@ class ParticleFilter {
   /// scale, and by the noise of the motion. `motion` must be finite.
   void predict(const Motion2& motion);
   /// Weighs every particle by its score; NaN = the pose could not be compared. Returns false, and
-  /// leaves the weights as they were, where no score is defined.
+  /// leaves the weights as they were, where poses that hold less than half of the weight could be:
+  /// the few at the rim of the map must not win over the many beyond it by being the only ones
+  /// that were asked.
   bool weigh(std::span<const double> scores);
   /// Resamples where the effective sample size has fallen; returns whether it did.
   bool resample_if_needed();

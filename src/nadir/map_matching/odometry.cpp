@@ -12,6 +12,11 @@ namespace {
 /// Smallest share of the later map that must lie on the earlier one.
 constexpr double kMinOverlap = 0.3;
 
+bool has_valid_pixel(const Orthomosaic& image) {
+  const auto& valid = image.valid.values();
+  return std::any_of(valid.begin(), valid.end(), [](std::uint8_t value) { return value != 0; });
+}
+
 /// The best motion of at most `reach` metres along each axis, unless it lies on the edge of the
 /// search, where it is no maximum, or is not believed.
 std::optional<Motion2> register_within(const MapIndex& map, const Template& local, double reach,
@@ -57,6 +62,7 @@ std::optional<Motion2> register_local_maps(const Orthomosaic& earlier, const Ort
   matching.resolution_m = options.resolution_m;
   matching.min_valid_weight = kMinOverlap;
   matching.candidates = 1;
+  if (!has_valid_pixel(earlier) || !has_valid_pixel(later)) return std::nullopt;
   const MapIndex map(earlier, matching);
   const Template local = make_template(later, matching);
   // Frames may be missing: where nothing fits near by, look twice as far, up to where the two maps

@@ -112,8 +112,9 @@ void draw_footprint(Canvas& canvas, const MapView& view, const Footprint& footpr
   canvas.disc(robot, 5.5, stroke.colour);
 }
 
-Stroke found_stroke() { return {kPaper, 4.0, kInk, 0.0}; }
-Stroke truth_stroke() { return {kTruthBlue, 6.0, kPaper, 0.0}; }
+// Where both boxes agree the narrow truth lies inside the wide found one, and both are seen.
+Stroke found_stroke() { return {kPaper, 9.0, kInk, 0.0}; }
+Stroke truth_stroke() { return {kTruthBlue, 3.5, kPaper, 0.0}; }
 Stroke window_stroke() { return {kSearchRed, 4.0, kPaper, 16.0}; }
 
 void draw_window(Canvas& canvas, const MapView& view, const Region& window) {
@@ -235,8 +236,8 @@ Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const Hea
   if (!heat_map.whole_map && !score.empty()) {
     draw_window(canvas, layout.view, region_of(*heat_map.volume));
   }
-  if (heat_map.truth) draw_footprint(canvas, layout.view, *heat_map.truth, truth_stroke());
   draw_footprint(canvas, layout.view, heat_map.found, found_stroke());
+  if (heat_map.truth) draw_footprint(canvas, layout.view, *heat_map.truth, truth_stroke());
   canvas.unclip();
   draw_map_axes(canvas, layout.view);
   draw_patches(canvas, layout, map, local, heat_map.found);
