@@ -18,6 +18,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# clang-tidy walks through Eigen's headers with every check: without the code for SIMD that is a
+# fifth less, and nothing of ours depends on it.
+SHORTER = ["--extra-arg=-DEIGEN_DONT_VECTORIZE"]
 
 
 def commands_of(build):
@@ -45,8 +48,8 @@ def tidy(source, arguments, build, common):
     mark = build / "tidy" / fingerprint(arguments, build, common)
     if mark.exists():
         return ""
-    done = subprocess.run(["clang-tidy", "-p", str(build), "--quiet", str(source)], check=False,
-                          capture_output=True, text=True)
+    done = subprocess.run(["clang-tidy", "-p", str(build), "--quiet", *SHORTER, str(source)],
+                          check=False, capture_output=True, text=True)
     if done.returncode == 0:
         mark.touch()
         return ""

@@ -36,18 +36,20 @@ Layout lay_out(const Place& place) {
   std::uint64_t draw = 0;
   const double first = place.road.along_at(0.0);
   const double last = place.road.along_at(place.length_m);
-  for (double along = first + random.uniform(draw++, 18.0, 40.0); along < last;
-       along += random.uniform(draw++, 45.0, 65.0)) {
+  double along = first + random.uniform(draw++, 18.0, 40.0);
+  while (along < last) {
     layout.zebras.push_back(along);
     layout.arrows.push_back({along - random.uniform(draw++, 11.0, 15.0), -kLaneMiddle});
     layout.arrows.push_back({along + random.uniform(draw++, 11.0, 15.0), kLaneMiddle});
+    along += random.uniform(draw++, 45.0, 65.0);
   }
-  for (double along = first + random.uniform(draw++, 2.0, 9.0); along < last;
-       along += random.uniform(draw++, 7.0, 15.0)) {
+  along = first + random.uniform(draw++, 2.0, 9.0);
+  while (along < last) {
     const double side = random.uniform(draw++) < 0.5 ? -1.0 : 1.0;
     const bool round = random.uniform(draw++) < 0.55;
     const double across = round ? random.uniform(draw++, 0.8, 2.4) : kKerbInner - 0.24;
     layout.covers.push_back({{along, side * across}, round});
+    along += random.uniform(draw++, 7.0, 15.0);
   }
   return layout;
 }
@@ -107,12 +109,14 @@ std::vector<cv::Point> crack(const Place& place, const Painting& painting, std::
   const double length = transverse ? 9.0 : random.uniform(draw++, 2.0, 12.0);
   constexpr double kStep = 0.18;
   std::vector<cv::Point> points;
-  for (double walked = 0.0; walked < length; walked += kStep) {
+  double walked = 0.0;
+  while (walked < length) {
     points.push_back(to_fixed(painting, place.road.place(at)));
     direction += 0.45 * random.normal(draw++) + 0.25 * (wanted - direction);
     at.along += kStep * std::cos(direction);
     at.across += kStep * std::sin(direction);
     if (std::abs(at.across) > kKerbInner) break;
+    walked += kStep;
   }
   return points;
 }

@@ -53,12 +53,12 @@ struct Painting {
 
 /// What all painters of a site share.
 struct Place {
-  std::uint64_t seed;
-  double length_m;
-  double width_m;
+  std::uint64_t seed = 0;
+  double length_m = 0.0;
+  double width_m = 0.0;
   Road road;
   SmoothNoise noise;
-  double sun_azimuth;  ///< direction towards the sun, radians counter-clockwise from east
+  double sun_azimuth = 0.0;  ///< direction towards the sun, radians counter-clockwise from east
 };
 
 // Metres from the centre line, both sides.

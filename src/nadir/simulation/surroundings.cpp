@@ -40,11 +40,13 @@ std::vector<Tree> plant(const Place& place) {
   const RandomStream random(place.seed, stream_of(Source::kTrees));
   std::vector<Tree> trees;
   std::uint64_t draw = 0;
-  for (double y = 0.0; y < place.width_m; y += kGrid) {
-    for (double x = 0.0; x < place.length_m; x += kGrid, draw += 3) {
+  for (int row = 0; row * kGrid < place.width_m; ++row) {
+    for (int column = 0; column * kGrid < place.length_m; ++column, draw += 3) {
       const auto [u, v] = random.uniform_pair(draw);
       const auto [keep, size] = random.uniform_pair(draw + 1);
-      const Tree tree{{x + kGrid * u, y + kGrid * v}, 1.1 + 2.3 * size, random.uniform(draw + 2)};
+      const Tree tree{{column * kGrid + kGrid * u, row * kGrid + kGrid * v},
+                      1.1 + 2.3 * size,
+                      random.uniform(draw + 2)};
       const double distance = std::abs(place.road.locate(tree.middle).across);
       if (keep < 0.42 && distance > kEdgingOuter + 0.8 * tree.radius) trees.push_back(tree);
     }
@@ -57,8 +59,8 @@ std::vector<Building> build(const Place& place) {
   std::vector<Building> buildings;
   std::uint64_t draw = 0;
   const double first = place.road.along_at(0.0);
-  for (double along = first + random.uniform(draw++, 10.0, 30.0); along < first + place.length_m;
-       along += random.uniform(draw++, 45.0, 70.0)) {
+  double along = first + random.uniform(draw++, 10.0, 30.0);
+  while (along < first + place.length_m) {
     const double side = random.uniform(draw++) < 0.5 ? -1.0 : 1.0;
     Building building;
     building.middle = place.road.place({along, side * random.uniform(draw++, 18.0, 21.0)});
@@ -67,6 +69,7 @@ std::vector<Building> build(const Place& place) {
     building.half_width = random.uniform(draw++, 3.5, 5.5);
     building.height = random.uniform(draw++, 3.5, 6.0);
     buildings.push_back(building);
+    along += random.uniform(draw++, 45.0, 70.0);
   }
   return buildings;
 }
@@ -120,8 +123,8 @@ cv::Mat shadow_mask(const Place& place, const Painting& painting, const std::vec
   cv::Mat mask(painting.image.height(), painting.image.width(), CV_8U, cv::Scalar(0));
   for (const Building& building : buildings) {
     constexpr double kSlice = 0.25;  // swept in slices: a prism's shadow
-    for (double height = 0.0; height <= building.height; height += kSlice) {
-      cast(place, painting, outline(building), height, mask);
+    for (int slice = 0; slice * kSlice <= building.height; ++slice) {
+      cast(place, painting, outline(building), slice * kSlice, mask);
     }
   }
   for (const Tree& tree : trees) {
