@@ -108,14 +108,24 @@ Layout lay_out(const Region& region, std::size_t count) {
                                                  : lay_out_above(region, count);
 }
 
-/// Particles from the lightest to the heaviest, so that the heavy ones end up on top.
-std::vector<std::size_t> by_weight(const Swarm& swarm) {
+constexpr std::size_t kMostDrawn = 1500;
+constexpr std::size_t kHeaviestDrawn = 500;
+
+/// Particles from the lightest to the heaviest, so that the heavy ones end up on top. Of a dense
+/// cloud the heaviest and an even sample of the others: all of them would hide the map.
+std::vector<std::size_t> drawn_particles(const Swarm& swarm) {
   std::vector<std::size_t> order(std::min(swarm.particles.size(), swarm.weights.size()));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return swarm.weights[a] < swarm.weights[b];
   });
-  return order;
+  if (order.size() <= kMostDrawn) return order;
+  const std::size_t light = order.size() - kHeaviestDrawn;
+  const std::size_t sampled = kMostDrawn - kHeaviestDrawn;
+  std::vector<std::size_t> drawn;
+  for (std::size_t k = 0; k < sampled; ++k) drawn.push_back(order[k * light / sampled]);
+  drawn.insert(drawn.end(), order.end() - static_cast<std::ptrdiff_t>(kHeaviestDrawn), order.end());
+  return drawn;
 }
 
 double heaviest(const Swarm& swarm) {
@@ -138,7 +148,7 @@ void draw_pose(Canvas& canvas, const MapView& view, const Pose2& pose, Colour co
 void draw_particles(Canvas& canvas, const MapView& view, const Swarm& swarm) {
   constexpr double kTick = 11.0;
   const double most = heaviest(swarm);
-  for (const std::size_t i : by_weight(swarm)) {
+  for (const std::size_t i : drawn_particles(swarm)) {
     const Pose2& particle = swarm.particles[i];
     if (!particle.is_finite()) continue;
     const Colour colour = mapped_colour(ColourMap::kViridis, swarm.weights[i] / most);
@@ -170,8 +180,12 @@ void draw_inset(Canvas& canvas, const Orthomosaic& map, const Box& box, const Sw
 }
 
 void draw_in_overview(Canvas& canvas, const MapView& view, const Swarm& swarm) {
-  for (const Pose2& particle : swarm.particles) {
-    canvas.disc(view.at(particle.x, particle.y), 2.2, kYellow, 0.55);
+  const double most = heaviest(swarm);
+  for (const std::size_t i : drawn_particles(swarm)) {
+    const Pose2& particle = swarm.particles[i];
+    if (!particle.is_finite()) continue;
+    canvas.disc(view.at(particle.x, particle.y), 2.2,
+                mapped_colour(ColourMap::kViridis, swarm.weights[i] / most), 0.7);
   }
   if (swarm.truth) draw_pose(canvas, view, *swarm.truth, kSkyBlue, 42.0);
   draw_pose(canvas, view, swarm.estimate, kVermillion, 30.0);
