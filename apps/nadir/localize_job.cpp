@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "frame_range.hpp"
 #include "interrupt.hpp"
+#include "localize_inputs.hpp"
 #include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
@@ -17,44 +17,9 @@
 #include "run_files.hpp"
 #include "site.hpp"
 #include "stopwatch.hpp"
-#include "streams.hpp"
 
 namespace nadir::cli {
 namespace {
-
-bool uses_odometry_file(const std::string& odometry, const Sequence& sequence) {
-  if (odometry == "file" && !sequence.odometry) {
-    throw Error(ErrorKind::kUsage, "the site has no odometry", "--odometry file",
-                "use --odometry maps");
-  }
-  return odometry != "maps" && sequence.odometry;
-}
-
-/// The frames asked for. Where none are named, a start at the truth begins at the first frame that
-/// has one: the prior would not hold for the frames before it.
-std::vector<Sequence::LocalMap> frames_of(const LocalizeOptions& options, const Sequence& sequence,
-                                          bool quiet) {
-  std::vector<Sequence::LocalMap> frames =
-      select_frames(sequence, parse_frame_range(options.frames));
-  if (options.start.prior != "truth" || !sequence.truth) return frames;
-  const auto first = std::ranges::find_if(frames, [&](const Sequence::LocalMap& map) {
-    return truth_at(sequence, map.stamp).has_value();
-  });
-  if (first == frames.begin() || first == frames.end()) return frames;
-  if (!options.frames.empty()) {
-    print_note(
-        fmt::format("the first true pose is that of frame {}: taken as the prior of frame {}",
-                    first->number, frames.front().number),
-        quiet);
-    return frames;
-  }
-  print_note(
-      fmt::format("starting at frame {}, the first with a true pose; --frames A:B takes others",
-                  first->number),
-      quiet);
-  frames.erase(frames.begin(), first);
-  return frames;
-}
 
 std::string seed_folder(std::uint64_t seed) { return "seed_" + std::to_string(seed); }
 
@@ -69,6 +34,7 @@ LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invoc
       frames_(frames_of(options, sequence_, invocation.common.quiet)),
       map_file_(map_path(sequence_, options.map)),
       use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
+  if (use_odometry_file_) note_coverage(*sequence_.odometry, frames_, invocation.common.quiet);
   start_of(options.start, truth_of(sequence_, frames_), invocation.common.seed);
   require_writable(options.run, invocation.common, inputs());
 }
