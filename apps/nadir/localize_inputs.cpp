@@ -20,8 +20,6 @@ bool uses_odometry_file(const std::string& odometry, const Sequence& sequence) {
   return odometry != "maps" && sequence.odometry;
 }
 
-/// The frames asked for. Where none are named, a start at the truth begins at the first frame that
-/// has one: the prior would not hold for the frames before it.
 std::vector<Sequence::LocalMap> frames_of(const LocalizeOptions& options, const Sequence& sequence,
                                           bool quiet) {
   std::vector<Sequence::LocalMap> frames =
