@@ -38,6 +38,9 @@ endif()
 add_library(nadir_pocketfft INTERFACE IMPORTED)
 target_include_directories(nadir_pocketfft INTERFACE ${POCKETFFT_INCLUDE_DIR})
 target_link_libraries(nadir_pocketfft INTERFACE Threads::Threads)
+# It hands aligned_alloc sizes that are no multiple of the alignment, which the sanitizers refuse;
+# told that there is no such function, it aligns by itself.
+target_compile_definitions(nadir_pocketfft INTERFACE _LIBCPP_HAS_NO_ALIGNED_ALLOCATION)
 
 # A project that takes nadir by add_subdirectory links our libraries from its own folders, where
 # imported targets of ours would otherwise be unknown.

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/map_matching/cpu/fft.hpp"
 
-// Debian's pocketfft hands aligned_alloc sizes that are no multiple of the alignment, which the
-// sanitizers refuse; told that there is none, it aligns by itself.
-#ifndef _LIBCPP_HAS_NO_ALIGNED_ALLOCATION
-#define _LIBCPP_HAS_NO_ALIGNED_ALLOCATION
-#endif
 #include <pocketfft_hdronly.h>
+
 #include <algorithm>
 
 namespace nadir::cpu {
