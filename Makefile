@@ -25,7 +25,7 @@ bench: build  ## run the benchmarks: build/release/bin/*_bench
 format: deps-quality  ## format every C++ file in place
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
 
-tidy: build deps-quality  ## run clang-tidy over src and apps
+tidy: build deps-quality  ## run clang-tidy over the library
 	tools/tidy.py -j $(JOBS)
 
 asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out

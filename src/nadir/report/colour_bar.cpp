@@ -2,6 +2,7 @@
 #include "nadir/report/colour_bar.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "nadir/report/ticks.hpp"
 
@@ -15,7 +16,9 @@ const TextStyle kBeside{kTextSize, kMuted, Align::kLeft, false, {}};
 void draw_gradient(Canvas& canvas, const Box& box, ColourMap map) {
   const bool upright = box.height > box.width;
   const double length = upright ? box.height : box.width;
-  for (double at = 0.0; at < length; at += 1.0) {
+  const int strips = static_cast<int>(std::ceil(length));
+  for (int strip = 0; strip < strips; ++strip) {
+    const double at = strip;
     const Colour colour = mapped_colour(map, (at + 0.5) / length);
     const Box slice = upright ? Box{box.left, box.bottom() - at - 1.0, box.width, 1.5}
                               : Box{box.left + at, box.top, 1.5, box.height};

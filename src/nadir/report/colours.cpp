@@ -33,10 +33,10 @@ Colour track_colour(std::size_t index) {
 }
 
 Colour mapped_colour(ColourMap map, double share) {
-  static const Table kInfernoTable = table_of(cv::COLORMAP_INFERNO);
-  static const Table kViridisTable = table_of(cv::COLORMAP_VIRIDIS);
+  static const Table inferno_table = table_of(cv::COLORMAP_INFERNO);
+  static const Table viridis_table = table_of(cv::COLORMAP_VIRIDIS);
   const auto index = static_cast<std::size_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
-  return map == ColourMap::kInferno ? kInfernoTable[index] : kViridisTable[index];
+  return map == ColourMap::kInferno ? inferno_table[index] : viridis_table[index];
 }
 
 }  // namespace nadir::report

@@ -44,7 +44,7 @@ std::optional<ColourScale> scale_of(const Raster<float>& score) {
   std::optional<ColourScale> scale;
   for (const float value : score.values()) {
     if (!std::isfinite(value)) continue;
-    const double number = static_cast<double>(value);
+    const auto number = static_cast<double>(value);
     if (!scale) scale = ColourScale{number, number, "score"};
     scale->low = std::min(scale->low, number);
     scale->high = std::max(scale->high, number);
@@ -60,7 +60,7 @@ Orthomosaic coloured(const Raster<float>& score, const GeoReference& geo,
   const double span = scale.high > scale.low ? scale.high - scale.low : 1.0;
   for (int row = 0; row < score.height(); ++row) {
     for (int column = 0; column < score.width(); ++column) {
-      const double value = static_cast<double>(score.at(column, row));
+      const auto value = static_cast<double>(score.at(column, row));
       if (!std::isfinite(value)) continue;
       const Colour colour = mapped_colour(ColourMap::kInferno, (value - scale.low) / span);
       picture.image.at(column, row, 0) = colour.red;
@@ -204,7 +204,7 @@ void draw_box_legend(Canvas& canvas, const HeatMapLayout& layout, const HeatMap&
   if (!heat_map.whole_map) entries.push_back(box_entry("search window", window_stroke()));
   const bool in_a_row = layout.legend.height > 0.0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const double shift = static_cast<double>(i);
+    const auto shift = static_cast<double>(i);
     const Box box{layout.legend.left + (in_a_row ? 230.0 * shift : 0.0),
                   layout.legend.top + (in_a_row ? 0.0 : 64.0 * shift), 340.0, 66.0};
     draw_legend(canvas, box, {entries[i]});

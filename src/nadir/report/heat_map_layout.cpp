@@ -20,7 +20,7 @@ HeatMapLayout lay_out_beside(const Region& region) {
   layout.bar = {map.right() + 30.0, top + kCaption, 26.0, std::min(640.0, map.height - kCaption)};
   const double left = layout.bar.left + kBarRoom;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double row = static_cast<double>(i);
+    const auto row = static_cast<double>(i);
     layout.patches[i] = {left, top + kCaption + row * (kPatchSide + kCaption + 14.0), kPatchSide,
                          kPatchSide};
   }
@@ -41,7 +41,7 @@ HeatMapLayout lay_out_above(const Region& region) {
   layout.bar = {map.right() + 30.0, top + kCaption, 26.0, std::min(640.0, map.height - kCaption)};
   const double row = map.bottom() + kTickRoom + 20.0 + kCaption;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double column = static_cast<double>(i);
+    const auto column = static_cast<double>(i);
     layout.patches[i] = {map.left + column * (kPatchSide + kGap), row, kPatchSide, kPatchSide};
   }
   const double left = layout.patches[2].right() + kGap;
