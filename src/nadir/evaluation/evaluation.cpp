@@ -20,16 +20,16 @@ std::vector<PoseError> pose_errors(std::span<const PosePair> pairs) {
 }
 
 std::optional<double> time_to_converge(std::span<const PoseError> errors, Stamp start) {
-  std::optional<Stamp> converged;
+  const PoseError* converged = nullptr;
   for (const PoseError& error : errors) {
     if (!(error.translation_m < kOneMetre)) {
-      converged.reset();
-    } else if (!converged) {
-      converged = error.stamp;
+      converged = nullptr;
+    } else if (converged == nullptr) {
+      converged = &error;
     }
   }
-  if (!converged) return std::nullopt;
-  return Stamp{converged->nanoseconds - start.nanoseconds}.seconds();
+  if (converged == nullptr) return std::nullopt;
+  return Stamp{converged->stamp.nanoseconds - start.nanoseconds}.seconds();
 }
 
 int lost_count(std::span<const PoseError> errors) {
