@@ -142,10 +142,22 @@ TEST(ParticleFilter, UndefinedScoresAreNoBetterThanTheWorst) {
 TEST(ParticleFilter, AFewThatCouldBeComparedDoNotWinOverTheManyThatCouldNot) {
   ParticleFilter filter(noiseless(), 1);
   filter.start_near({0.0, 0.0, 0.0}, {5.0, 0.0});
+  ASSERT_TRUE(filter.weigh(std::vector<double>(1000, 0.5)));
   std::vector<double> scores(1000, NAN);
   std::fill(scores.begin(), scores.begin() + 300, 0.2);
   EXPECT_FALSE(filter.weigh(scores));
   EXPECT_NEAR(filter.effective_particles(), 1000.0, 1e-6);
+}
+
+// A prior near the rim of the map: most of the first cloud may lie beyond it.
+TEST(ParticleFilter, TheStartCountsWhateverShareOfItCouldBeCompared) {
+  ParticleFilter filter(noiseless(), 1);
+  filter.start_near({0.0, 0.0, 0.0}, {5.0, 0.0});
+  std::vector<double> scores(1000, NAN);
+  std::fill(scores.begin(), scores.begin() + 100, 0.2);
+  scores[5] = 0.6;
+  EXPECT_TRUE(filter.weigh(scores));
+  EXPECT_LT(filter.effective_particles(), 10.0);
 }
 
 TEST(ParticleFilter, SameSeedSameBytes) {

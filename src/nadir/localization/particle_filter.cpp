@@ -13,7 +13,7 @@ namespace nadir {
 namespace {
 
 constexpr int kTemperBisections = 20;
-/// Weight of the particles that must have been compared for a frame to count.
+/// Weight of the particles that must have been compared for a frame to count, once one has.
 constexpr double kMinComparedWeight = 0.5;
 
 /// weights * exp(temper * log_gain), normalised; nothing where all have vanished.
@@ -66,6 +66,7 @@ void ParticleFilter::start_near(const Pose2& prior, const Spread& spread) {
                 "the prior needs a finite x, y and yaw and a spread that is not negative");
   }
   step_ = 0;
+  weighed_ = false;
   const auto count =
       static_cast<std::size_t>(std::max(options_.particles, options_.start_particles));
   particles_.poses.resize(count);
@@ -107,7 +108,7 @@ void ParticleFilter::predict(const Motion2& motion) {
 
 bool ParticleFilter::weigh(std::span<const double> scores) {
   const auto [lowest, weight] = defined_scores(scores, particles_.weights);
-  if (weight < kMinComparedWeight) return false;
+  if (weight <= 0.0 || (weighed_ && weight < kMinComparedWeight)) return false;
   // A pose that could not be compared is no better than the worst that could.
   std::vector<double> defined(scores.begin(), scores.end());
   std::replace_if(
@@ -122,6 +123,7 @@ bool ParticleFilter::weigh(std::span<const double> scores) {
   }
   if (!weights) return false;
   particles_.weights = std::move(*weights);
+  weighed_ = true;
   return true;
 }
 

@@ -32,9 +32,10 @@ class ParticleFilter {
   /// scale, and by the noise of the motion. `motion` must be finite.
   void predict(const Motion2& motion);
   /// Weighs every particle by its score; NaN = the pose could not be compared. Returns false, and
-  /// leaves the weights as they were, where poses that hold less than half of the weight could be:
-  /// the few at the rim of the map must not win over the many beyond it by being the only ones
-  /// that were asked.
+  /// leaves the weights as they were, where no pose could be. Once a frame has counted, poses that
+  /// hold half of the weight must be comparable: the few at the rim of the map must not win over
+  /// the many beyond it by being the only ones that were asked. The cloud of the start may well
+  /// lie beyond the rim for the most part.
   bool weigh(std::span<const double> scores);
   /// Resamples where the effective sample size has fallen; returns whether it did.
   bool resample_if_needed();
@@ -64,6 +65,7 @@ class ParticleFilter {
   LocalizationOptions options_;
   std::uint64_t seed_;
   std::uint64_t step_ = 0;
+  bool weighed_ = false;  ///< a frame has counted since the start
   ParticleSet particles_;
 };
 
