@@ -2,7 +2,7 @@
 # Only the OpenCV modules that are used. Debian's module packages carry headers and libraries but
 # no OpenCVConfig.cmake, which comes with the whole of OpenCV and Qt alone: so both ways are tried.
 # Installed beside nadirConfig.cmake too, for the users of the static libraries.
-foreach(module core imgproc imgcodecs)
+foreach(module core imgproc imgcodecs calib3d features2d flann stitching)
   if(TARGET nadir_opencv_${module})
     continue()
   endif()
@@ -10,7 +10,7 @@ foreach(module core imgproc imgcodecs)
   find_library(NADIR_OPENCV_${module}_LIBRARY opencv_${module})
   mark_as_advanced(NADIR_OPENCV_INCLUDE_DIR NADIR_OPENCV_${module}_LIBRARY)
   if(NOT NADIR_OPENCV_INCLUDE_DIR OR NOT NADIR_OPENCV_${module}_LIBRARY)
-    find_package(OpenCV 4.5 REQUIRED CONFIG COMPONENTS core imgproc imgcodecs)
+    find_package(OpenCV 4.5 REQUIRED CONFIG COMPONENTS ${module})
     add_library(nadir_opencv_${module} INTERFACE IMPORTED GLOBAL)
     target_include_directories(nadir_opencv_${module} INTERFACE ${OpenCV_INCLUDE_DIRS})
     target_link_libraries(nadir_opencv_${module} INTERFACE opencv_${module})

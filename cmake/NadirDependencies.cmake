@@ -17,7 +17,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256 of the inputs, in the run records
-include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, nadir_opencv_imgcodecs
+include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, ...
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
 endif()

@@ -33,16 +33,20 @@ THIRD_PARTIES = {
     "fmt": r"fmt/",
     "OpenSSL": r"openssl/",
     "CLI11": r"CLI/",
+    "Ceres": r"ceres/",
+    "CUDA": r"(cuda|cufft)\w*\.h$|cub/|thrust/",
+    "ROS bag": r"(rosbag|ros|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|tf2_msgs)/",
     "POSIX": r"(unistd|fcntl|signal|poll|sched|termios)\.h$|sys/\w+\.h$",
 }
 COMPUTING = {"Eigen", "OpenCV", "oneTBB"}
 ALLOWED = {
     "core": {"Eigen"},
     **{stage: COMPUTING for stage in STAGES},
-    "map_matching": COMPUTING | {"pocketfft", "Highway", "SIMD"},
+    "map_matching": COMPUTING | {"pocketfft", "Highway", "SIMD", "CUDA"},
+    "aerial_mapping": COMPUTING | {"Ceres"},
     "simulation": COMPUTING,
     "report": COMPUTING | {"fmt"},
-    "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX"},
+    "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX", "ROS bag"},
     ROOT: COMPUTING,
     APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "POSIX"},
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "nadir/core/elevation_map.hpp"
 #include "nadir/core/frames.hpp"
 #include "nadir/core/geo_reference.hpp"
 #include "nadir/core/raster.hpp"
@@ -29,7 +30,9 @@ struct Frame {
   /// to the right, y left is up, and (0, 0) is the robot.
   Orthomosaic local;
   /// The odometry at this instant, where there is any.
-  std::optional<OdomPose2> odom_from_robot;
+  std::optional<OdomPose2> odom_from_robot = std::nullopt;
+  /// Heights of the same place in the same frame, above the robot's ground, where known.
+  std::optional<ElevationMap> elevation = std::nullopt;
 };
 
 }  // namespace nadir
