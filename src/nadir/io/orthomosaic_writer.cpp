@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cpl_string.h>
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include "nadir/core/error.hpp"
 #include "nadir/core/options.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/geotiff.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 
 namespace nadir {
 namespace {
-
-Error write_error(const std::filesystem::path& path, const std::string& problem) {
-  return {ErrorKind::kProcessing, "cannot be written: " + problem, path.string(),
-          "check the folder, its permissions and the free space"};
-}
 
 void check(const Orthomosaic& orthomosaic, const std::filesystem::path& path) {
   const Raster<std::uint8_t>& image = orthomosaic.image;
@@ -64,50 +56,14 @@ bool write_colours(GDALDataset& dataset, const Raster<std::uint8_t>& image) {
   return true;
 }
 
-void set_geo_reference(GDALDataset& dataset, const GeoReference& geo,
-                       const std::filesystem::path& path) {
-  std::array<double, 6> transform{geo.west, geo.resolution, 0.0, geo.north, 0.0, -geo.resolution};
-  dataset.SetGeoTransform(transform.data());
-  if (geo.crs.empty()) return;
-  OGRSpatialReference crs;
-  if (crs.SetFromUserInput(geo.crs.c_str()) != OGRERR_NONE) {
-    throw Error(ErrorKind::kProcessing, "its coordinate reference system is not understood",
-                path.string());
-  }
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  dataset.SetSpatialRef(&crs);
-}
-
-/// Halved until the smallest side of the pyramid fits a screen tile.
-bool build_overviews(GDALDataset& dataset) {
-  constexpr int kLargestWithout = 1024;
-  constexpr int kSmallestLevel = 256;
-  const int size = std::max(dataset.GetRasterXSize(), dataset.GetRasterYSize());
-  if (size <= kLargestWithout) return true;
-  std::vector<int> factors;
-  for (int factor = 2; size / factor >= kSmallestLevel; factor *= 2) factors.push_back(factor);
-  return dataset.BuildOverviews("AVERAGE", static_cast<int>(factors.size()), factors.data(), 0,
-                                nullptr, nullptr, nullptr) == CE_None;
-}
-
 void write_geotiff(const std::filesystem::path& path, const Orthomosaic& orthomosaic) {
   AtomicFile file(path);
-  GDALDriver& driver = gdal_driver("GTiff");
   const GdalErrors errors;
   const GdalSetting internal_mask("GDAL_TIFF_INTERNAL_MASK", "YES");
   const Raster<std::uint8_t>& image = orthomosaic.image;
-  CPLStringList options;
-  options.SetNameValue("TILED", "YES");
-  options.SetNameValue("BLOCKXSIZE", "512");
-  options.SetNameValue("BLOCKYSIZE", "512");
-  options.SetNameValue("COMPRESS", "DEFLATE");
-  options.SetNameValue("PREDICTOR", "2");
-  options.SetNameValue("BIGTIFF", "IF_SAFER");
-  options.SetNameValue("PHOTOMETRIC", image.channels() == 3 ? "RGB" : "MINISBLACK");
-  GdalDataset dataset(driver.Create(file.temporary().c_str(), image.width(), image.height(),
-                                    image.channels(), GDT_Byte, options.List()));
-  if (!dataset) throw write_error(path, errors.first_failure());
-  set_geo_reference(*dataset, orthomosaic.geo, path);
+  GdalDataset dataset = create_geotiff(file.temporary().string(),
+                                       {image.width(), image.height(), image.channels(), GDT_Byte},
+                                       orthomosaic.geo, path, errors);
   bool written = write_colours(*dataset, image);
   if (written && has_holes(orthomosaic)) {
     written = dataset->CreateMaskBand(GMF_PER_DATASET) == CE_None &&

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nadir/core/elevation_map.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/trajectory.hpp"
 
@@ -18,12 +19,15 @@ struct Sequence {
     int number = 0;  ///< the frame number that `--frame` and `--frames` take
     Stamp stamp;
     std::filesystem::path image;
+    /// Heights of the same place, where the site has them.
+    std::optional<std::filesystem::path> elevation = std::nullopt;
   };
 
   std::filesystem::path folder;
   std::string name;
-  std::optional<std::filesystem::path> map;  ///< the global orthomosaic, where the site has one
-  std::vector<LocalMap> local_maps;          ///< by increasing stamp and number
+  std::optional<std::filesystem::path> map;      ///< the global orthomosaic, where the site has one
+  std::optional<std::filesystem::path> surface;  ///< heights of the map: a surface model
+  std::vector<LocalMap> local_maps;              ///< by increasing stamp and number
   std::optional<Odometry> odometry;
   std::optional<Trajectory> truth;                   ///< map_from_robot
   std::optional<std::filesystem::path> calibration;  ///< handed on as it is, never read here
@@ -34,9 +38,10 @@ struct Sequence {
 /// increase.
 Sequence read_sequence(const std::filesystem::path& folder);
 
-/// Reads one frame: its local map and the odometry pose of its stamp, where there is one. Between
-/// two samples at most 0.5 s apart the pose is interpolated; otherwise the nearest sample within
-/// 0.01 s is taken. Throws Error (input) as read_orthomosaic does.
+/// Reads one frame: its local map, its heights where it has them, and the odometry pose of its
+/// stamp, where there is one. Between two samples at most 0.5 s apart the pose is interpolated;
+/// otherwise the nearest sample within 0.01 s is taken. Throws Error (input) as read_orthomosaic
+/// and read_elevation_map do.
 Frame read_frame(const Sequence& sequence, const Sequence::LocalMap& local_map);
 
 /// Writes a site file by file; `finish` writes sequence.yaml last, so that a folder without it is
@@ -47,7 +52,9 @@ class SequenceWriter {
  public:
   SequenceWriter(std::filesystem::path folder, std::string name);
   void write_map(const Orthomosaic& map);
-  void write_local_map(int number, Stamp stamp, const Orthomosaic& local);
+  void write_surface(const ElevationMap& surface);
+  void write_local_map(int number, Stamp stamp, const Orthomosaic& local,
+                       const std::optional<ElevationMap>& elevation = std::nullopt);
   void write_odometry(const Odometry& odometry);
   void write_truth(const Trajectory& truth);
   /// Copies the file into the site.

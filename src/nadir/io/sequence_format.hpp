@@ -8,6 +8,7 @@ namespace nadir::sequence_format {
 inline constexpr const char* kIndexFile = "sequence.yaml";
 inline constexpr int kVersion = 1;
 inline constexpr const char* kMapFile = "map.tif";
+inline constexpr const char* kSurfaceFile = "surface.tif";
 inline constexpr const char* kLocalMapFolder = "local";
 inline constexpr const char* kOdometryFile = "odometry.tum";
 inline constexpr const char* kTruthFile = "truth.tum";

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "nadir/io/detail/yaml_file.hpp"
+#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
@@ -18,9 +19,9 @@ namespace {
 
 using std::filesystem::path;
 
-const std::array<std::string, 7> kKeys{"version",  "name",  "map",        "local_maps",
-                                       "odometry", "truth", "calibration"};
-const std::array<std::string, 3> kLocalMapKeys{"number", "stamp", "image"};
+const std::array<std::string, 8> kKeys{"version",    "name",     "map",   "surface",
+                                       "local_maps", "odometry", "truth", "calibration"};
+const std::array<std::string, 4> kLocalMapKeys{"number", "stamp", "image", "elevation"};
 
 /// sequence.yaml while it is read: the folder that it speaks of, and its own path for the errors.
 struct Index {
@@ -71,7 +72,7 @@ Sequence::LocalMap read_local_map(const YAML::Node& node, const Index& index) {
   }
   const auto image = file_at(node, "image", index);
   if (!image) throw index.error(node, "the local map has no 'image'", "name its file");
-  return {integer_at(node, "number", index), *stamp, *image};
+  return {integer_at(node, "number", index), *stamp, *image, file_at(node, "elevation", index)};
 }
 
 std::vector<Sequence::LocalMap> read_local_maps(const YAML::Node& list, const Index& index) {
@@ -154,6 +155,7 @@ Sequence read_sequence(const path& folder) {
   sequence.name = text_at(root, "name", index.file);
   if (sequence.name.empty()) throw index.error(root, "the site has no 'name'", "add one");
   sequence.map = file_at(root, "map", index);
+  sequence.surface = file_at(root, "surface", index);
   sequence.calibration = file_at(root, "calibration", index);
   sequence.local_maps = read_local_maps(root["local_maps"], index);
   if (const auto file = file_at(root, "odometry", index)) {
@@ -164,7 +166,8 @@ Sequence read_sequence(const path& folder) {
 }
 
 Frame read_frame(const Sequence& sequence, const Sequence::LocalMap& local_map) {
-  Frame frame{local_map.stamp, read_orthomosaic(local_map.image), std::nullopt};
+  Frame frame{local_map.stamp, read_orthomosaic(local_map.image)};
+  if (local_map.elevation) frame.elevation = read_elevation_map(*local_map.elevation);
   if (sequence.odometry) {
     frame.odom_from_robot = odometry_at(*sequence.odometry, local_map.stamp);
   }

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
@@ -15,11 +16,16 @@ namespace {
 void emit_local_maps(YAML::Emitter& out, const Sequence& sequence) {
   out << YAML::Key << "local_maps" << YAML::Value << YAML::BeginSeq;
   for (const Sequence::LocalMap& local_map : sequence.local_maps) {
-    const std::filesystem::path image = local_map.image.lexically_relative(sequence.folder);
+    const auto name_of = [&sequence](const std::filesystem::path& file) {
+      return file.lexically_relative(sequence.folder).generic_string();
+    };
     out << YAML::Flow << YAML::BeginMap;
     out << YAML::Key << "number" << YAML::Value << local_map.number;
     out << YAML::Key << "stamp" << YAML::Value << to_string(local_map.stamp);
-    out << YAML::Key << "image" << YAML::Value << image.generic_string();
+    out << YAML::Key << "image" << YAML::Value << name_of(local_map.image);
+    if (local_map.elevation) {
+      out << YAML::Key << "elevation" << YAML::Value << name_of(*local_map.elevation);
+    }
     out << YAML::EndMap;
   }
   out << YAML::EndSeq;
@@ -36,6 +42,7 @@ std::string index_of(const Sequence& sequence) {
   out << YAML::Key << "version" << YAML::Value << kVersion;
   out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << sequence.name;
   file(sequence.map.has_value(), "map", kMapFile);
+  file(sequence.surface.has_value(), "surface", kSurfaceFile);
   file(sequence.odometry.has_value(), "odometry", kOdometryFile);
   file(sequence.truth.has_value(), "truth", kTruthFile);
   file(sequence.calibration.has_value(), "calibration", kCalibrationFile);
@@ -60,7 +67,14 @@ void SequenceWriter::write_map(const Orthomosaic& map) {
   sequence_.map = file;
 }
 
-void SequenceWriter::write_local_map(int number, Stamp stamp, const Orthomosaic& local) {
+void SequenceWriter::write_surface(const ElevationMap& surface) {
+  const std::filesystem::path file = sequence_.folder / sequence_format::kSurfaceFile;
+  write_elevation_map(file, surface);
+  sequence_.surface = file;
+}
+
+void SequenceWriter::write_local_map(int number, Stamp stamp, const Orthomosaic& local,
+                                     const std::optional<ElevationMap>& elevation) {
   auto& written = sequence_.local_maps;
   if (!written.empty() && (number <= written.back().number || stamp <= written.back().stamp)) {
     throw Error(
@@ -69,10 +83,14 @@ void SequenceWriter::write_local_map(int number, Stamp stamp, const Orthomosaic&
                     written.back().number, to_string(written.back().stamp)),
         sequence_.folder.string());
   }
-  const std::filesystem::path image =
-      sequence_.folder / sequence_format::kLocalMapFolder / fmt::format("{:06}.png", number);
-  write_orthomosaic(image, local);
-  written.push_back({number, stamp, image});
+  const std::filesystem::path folder = sequence_.folder / sequence_format::kLocalMapFolder;
+  Sequence::LocalMap entry{number, stamp, folder / fmt::format("{:06}.png", number)};
+  write_orthomosaic(entry.image, local);
+  if (elevation) {
+    entry.elevation = folder / fmt::format("{:06}_elevation.tif", number);
+    write_elevation_map(*entry.elevation, *elevation);
+  }
+  written.push_back(std::move(entry));
 }
 
 void SequenceWriter::write_odometry(const Odometry& odometry) {
