@@ -18,6 +18,16 @@ find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # SHA-256 of the inputs, in the run records
 include(FindOpenCVModules)  # nadir_opencv_core, nadir_opencv_imgproc, ...
+# Ceres is for aerial_mapping's own poses alone: without it given poses are still rectified.
+set(NADIR_HAS_SFM OFF)
+if(NADIR_WITH_SFM STREQUAL "ON")
+  find_package(Ceres 2.0 REQUIRED)
+elseif(NOT NADIR_WITH_SFM STREQUAL "OFF")
+  find_package(Ceres 2.0 QUIET)
+endif()
+if(Ceres_FOUND AND NOT NADIR_WITH_SFM STREQUAL "OFF")
+  set(NADIR_HAS_SFM ON)
+endif()
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
 endif()

@@ -15,6 +15,7 @@ set(nadir_find_yaml-cpp "find_dependency(yaml-cpp)")
 set(nadir_find_fmt::fmt "find_dependency(fmt)")
 set(nadir_find_Threads::Threads "find_dependency(Threads)")
 set(nadir_find_OpenSSL::Crypto "find_dependency(OpenSSL)")
+set(nadir_find_Ceres::ceres "find_dependency(Ceres 2.0)")
 foreach(module core imgproc imgcodecs calib3d features2d flann stitching)
   set(nadir_find_nadir_opencv_${module}
       "include(\"\${CMAKE_CURRENT_LIST_DIR}/FindOpenCVModules.cmake\")")

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+
+#include "nadir/aerial_mapping/aerial_map.hpp"
+#include "nadir/aerial_mapping/options.hpp"
+#include "nadir/aerial_mapping/photo_set.hpp"
+
+namespace nadir {
+
+/// Called as the work goes on: the name of the stage and its finished share, 0 .. 1. Comes from
+/// one thread at a time. May throw to stop the work.
+using MappingProgress = std::function<void(const std::string& stage, double share)>;
+
+/// Names of the stages, in order, with their usual share of the whole time.
+struct MappingStage {
+  const char* name;
+  double share;
+};
+inline constexpr std::array<MappingStage, 7> kMappingStages{{{"features", 0.30},
+                                                             {"matching", 0.35},
+                                                             {"adjustment", 0.15},
+                                                             {"surface", 0.02},
+                                                             {"seams", 0.06},
+                                                             {"orthomosaic", 0.12},
+                                                             {"report", 0.0}}};
+
+/// Photos -> poses -> surface -> orthomosaic (docs/aerial-mapping.md). Shows the largest group of
+/// photos that join each other; the report names the others. The bytes depend neither on the order
+/// of the photos nor on the number of threads.
+///
+/// Photos with given poses are rectified as they are; the surface is then triangulated from their
+/// features where this build can (`can_solve_poses`), and a plane otherwise.
+///
+/// Without positions, control points, relative altitude or metres_per_photo_pixel the map has an
+/// arbitrary scale, at which one pixel of the map is one pixel of the photos, and says so:
+/// ScaleSource::kNone and a warning. Without positions the map frame begins at (0, 0).
+///
+/// Throws Error (usage) for a set that contradicts itself (repeated names, a camera that is not
+/// there, a size beyond max_megapixels), Error (input) for pixels of another size than the camera's
+/// and Error (no result) where fewer than two photos join.
+AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
+                     const MappingProgress& progress = {});
+
+/// Whether this build finds poses by itself (NADIR_WITH_SFM): features, matching, adjustment.
+bool can_solve_poses();
+
+}  // namespace nadir
