@@ -21,7 +21,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = [f"src/nadir/{module}" for module in
-           ("core", "aerial_mapping", "map_matching", "localization", "evaluation", "simulation", "io")]
+           ("core", "aerial_mapping", "ground_mapping", "map_matching", "localization",
+            "evaluation", "simulation", "io")]
 FOLDERS.append("src/nadir/localizer.cpp")
 # clang-tidy walks through Eigen's headers with every check: without the code for SIMD that is a
 # fifth less, and nothing of ours depends on it.
