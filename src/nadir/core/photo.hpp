@@ -21,6 +21,7 @@ struct GeodeticPosition {
   /// Standard deviations, where they are given (RTK, a list).
   std::optional<double> horizontal_sigma_m = std::nullopt;
   std::optional<double> vertical_sigma_m = std::nullopt;
+  bool altitude_known = true;  ///< false: altitude_m means nothing
 };
 
 /// Attitude of the gimbal as DJI and most others write it: degrees, yaw clockwise from north, pitch

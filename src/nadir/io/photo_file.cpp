@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/io/photo_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "nadir/io/atomic_file.hpp"
+#include "nadir/io/detail/exif.hpp"
+#include "nadir/io/image.hpp"
+#include "nadir/io/input_file.hpp"
+
+namespace nadir {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+cv::Mat view_of(Raster<std::uint8_t>& image) {
+  return {image.height(), image.width(), CV_8UC(image.channels()), image.values().data()};
+}
+
+Raster<std::uint8_t> reduced(Raster<std::uint8_t> image, int max_image_px) {
+  const int longer = std::max(image.width(), image.height());
+  if (max_image_px <= 0 || longer <= max_image_px) return image;
+  const double scale = static_cast<double>(max_image_px) / longer;
+  const auto side = [&](int size) {
+    return std::max(1, static_cast<int>(std::lround(size * scale)));
+  };
+  Raster<std::uint8_t> small(side(image.width()), side(image.height()), 0, image.channels());
+  cv::Mat into = view_of(small);
+  cv::resize(view_of(image), into, into.size(), 0.0, 0.0, cv::INTER_AREA);
+  return small;
+}
+
+std::string encode_jpeg(const std::filesystem::path& path, const Photo& photo, int quality) {
+  Raster<std::uint8_t> image = photo.image;
+  const bool encodable = !image.empty() && (image.channels() == 1 || image.channels() == 3);
+  std::vector<std::uint8_t> bytes;
+  if (encodable) {
+    cv::Mat ordered = view_of(image);
+    if (image.channels() == 3) cv::cvtColor(ordered, ordered, cv::COLOR_RGB2BGR);
+    cv::imencode(".jpg", ordered, bytes, {cv::IMWRITE_JPEG_QUALITY, std::clamp(quality, 1, 100)});
+  }
+  if (bytes.empty()) {
+    throw Error(ErrorKind::kProcessing,
+                "an image of " + std::to_string(image.width()) + " x " +
+                    std::to_string(image.height()) + " pixels, " +
+                    std::to_string(image.channels()) + " channels, cannot be a JPEG",
+                path.string());
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> photo_files(const std::filesystem::path& folder) {
+  static const std::set<std::string> kPhotos{".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+  std::vector<std::filesystem::path> files = files_in(folder, Depth::kFolder);
+  std::erase_if(files, [](const auto& file) {
+    return !kPhotos.contains(lower_extension(file)) || file.filename().string().starts_with('.');
+  });
+  if (files.empty()) {
+    throw input_error(folder, "holds no photos", "give a folder of JPEG, PNG or TIFF photos");
+  }
+  return files;
+}
+
+Photo read_photo(const std::filesystem::path& path, int max_image_px) {
+  Photo photo;
+  photo.metadata = read_photo_metadata(path);
+  photo.image = reduced(read_image(path), max_image_px);
+  return photo;
+}
+
+void write_photo(const std::filesystem::path& path, const Photo& photo, int jpeg_quality) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".jpg" && extension != ".jpeg") {
+    throw Error(ErrorKind::kUsage, "'" + extension + "' is no format for a photo", path.string(),
+                "write .jpg");
+  }
+  std::string jpeg = encode_jpeg(path, photo, jpeg_quality);
+  PhotoMetadata metadata = photo.metadata;
+  metadata.width = photo.image.width();
+  metadata.height = photo.image.height();
+  // EXIF asks to stand right behind the start marker.
+  jpeg.insert(2, exif_segment(metadata) + xmp_segment(metadata));
+  write_file(path, jpeg);
+}
+
+}  // namespace nadir
