@@ -12,6 +12,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
+#include "particle_log.hpp"
 #include "progress.hpp"
 #include "run_figures.hpp"
 #include "run_files.hpp"
@@ -22,6 +23,18 @@ namespace nadir::cli {
 namespace {
 
 std::string seed_folder(std::uint64_t seed) { return "seed_" + std::to_string(seed); }
+
+/// Keeps the cloud of every frame, for the viewer.
+class ParticleKeeper : public RunObserver {
+ public:
+  explicit ParticleKeeper(const std::filesystem::path& folder) : log_(folder / "particles.bin") {}
+  void frame_done(const FrameRecord& /*record*/, const ParticleSet& particles) override {
+    log_.append(particles);
+  }
+
+ private:
+  ParticleLogWriter log_;
+};
 
 }  // namespace
 
@@ -72,12 +85,16 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
   for (int k = 0; k < options_.seeds && !interrupted(); ++k) {
     const std::uint64_t seed = invocation_.common.seed + static_cast<std::uint64_t>(k);
     const Prior start = start_of(options_.start, truth_of(sequence_, frames_), seed);
-    const RunPlan plan{map,   sequence_, frames_,           effective_.values(),
-                       start, seed,      use_odometry_file_};
+    const std::filesystem::path run_folder =
+        options_.seeds == 1 ? folder : folder / seed_folder(seed);
+    create_folder(run_folder);
+    ParticleKeeper particles(run_folder);
+    const RunPlan plan{map,  sequence_,          frames_,     effective_.values(), start,
+                       seed, use_odometry_file_, {&particles}};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
-    write_run(options_.seeds == 1 ? folder : folder / seed_folder(seed), run->result);
+    write_run(run_folder, run->result);
     runs.push_back(std::move(*run));
   }
   return runs;
@@ -97,6 +114,7 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
     write_file(folder / "summary.json", to_json(*summary).dump(2) + "\n");
   }
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
+  manifest.sources = {{"site", options_.site}, {"map", map_file_}};
   const bool partial = interrupted();
   manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
   write_manifest(folder, manifest, effective_.table(), effective_.origins());

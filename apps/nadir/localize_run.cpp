@@ -73,6 +73,10 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
       result.interrupted = true;
       break;
     }
+    for (RunObserver* observer : plan.observers) {
+      if (const auto start = observer->new_start())
+        localizer.start_near(start->pose, start->spread);
+    }
     const Sequence::LocalMap& local_map = plan.frames[i];
     result.records.push_back(run_frame(localizer, plan, local_map));
     if (is_swarm_instant(i, plan.frames.size())) {
@@ -80,6 +84,9 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
       result.swarms.push_back({"frame " + std::to_string(local_map.number), particles.poses,
                                particles.weights, result.records.back().estimate.map_from_robot,
                                truth_at(plan.sequence, local_map.stamp)});
+    }
+    for (RunObserver* observer : plan.observers) {
+      observer->frame_done(result.records.back(), localizer.particles());
     }
     progress(static_cast<int>(i) + 1);
   }

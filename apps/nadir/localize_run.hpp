@@ -12,6 +12,27 @@
 
 namespace nadir::cli {
 
+struct FrameRecord {
+  int number = 0;
+  Estimate estimate;
+  double decode_s = 0.0;
+  double update_s = 0.0;
+};
+
+/// Watches a run, and may send it to another start.
+class RunObserver {
+ public:
+  RunObserver() = default;
+  RunObserver(const RunObserver&) = delete;
+  RunObserver& operator=(const RunObserver&) = delete;
+  virtual ~RunObserver() = default;
+
+  /// After every frame, with the particles and weights that it left.
+  virtual void frame_done(const FrameRecord& record, const ParticleSet& particles) = 0;
+  /// Asked before every frame: where to start anew, if so.
+  virtual std::optional<Prior> new_start() { return std::nullopt; }
+};
+
 /// What to run.
 struct RunPlan {
   const Orthomosaic& map;
@@ -21,13 +42,7 @@ struct RunPlan {
   Prior start;
   std::uint64_t seed = 0;
   bool use_odometry_file = true;  ///< else the odometry is registered from the local maps
-};
-
-struct FrameRecord {
-  int number = 0;
-  Estimate estimate;
-  double decode_s = 0.0;
-  double update_s = 0.0;
+  std::vector<RunObserver*> observers = {};
 };
 
 struct RunResult {

@@ -45,6 +45,7 @@ TEST(Manifest, RecordsTheRun) {
   manifest.seed = 18446744073709551615U;
   manifest.threads = 2;
   manifest.inputs = {folder / "site"};
+  manifest.sources = {{"site", folder / "site"}};
   manifest.stages = {{"match", 1.5}};
   manifest.started = std::chrono::system_clock::from_time_t(0);
   write_manifest(folder.path(), manifest, table, {{"search.radius_m", "--set"}});
@@ -56,6 +57,7 @@ TEST(Manifest, RecordsTheRun) {
   EXPECT_EQ(json["seed"], 18446744073709551615U);
   EXPECT_EQ(json["threads"], 2);
   EXPECT_EQ(json["device"], "cpu");
+  EXPECT_EQ(json["sources"]["site"], (folder / "site").string());
   EXPECT_EQ(json["options"]["search.radius_m"]["value"], 0.25);
   EXPECT_EQ(json["options"]["search.radius_m"]["from"], "--set");
   EXPECT_EQ(json["options"]["filter.adaptive"]["value"], true);

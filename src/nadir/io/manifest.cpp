@@ -57,6 +57,15 @@ Json describe_options(const OptionTable& table, const OptionOrigins& origins) {
   return options;
 }
 
+/// Absolute, so that they are found from wherever the output is looked at.
+Json describe_sources(const std::vector<std::pair<std::string, std::filesystem::path>>& sources) {
+  Json described = Json::object();
+  for (const auto& [role, path] : sources) {
+    described[role] = std::filesystem::absolute(path).lexically_normal().string();
+  }
+  return described;
+}
+
 Json describe_stages(const std::vector<Manifest::Stage>& stages) {
   Json list = Json::array();
   for (const Manifest::Stage& stage : stages) {
@@ -101,6 +110,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
       {"device", manifest.device},
       {"options", describe_options(table, origins)},
       {"inputs", describe_inputs(manifest.inputs)},
+      {"sources", describe_sources(manifest.sources)},
       {"stages", describe_stages(manifest.stages)},
       {"host", describe_host()}};
   // Arguments and paths may hold bytes that are not UTF-8.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nadir/core/options.hpp"
@@ -27,6 +28,8 @@ struct Manifest {
   std::string device = "cpu";
   /// Files, and folders for all files below them.
   std::vector<std::filesystem::path> inputs;
+  /// The parts that a later look at the output needs again, by their role: "site", "map".
+  std::vector<std::pair<std::string, std::filesystem::path>> sources;
   std::vector<Stage> stages;
   std::chrono::system_clock::time_point started = std::chrono::system_clock::now();
 };
