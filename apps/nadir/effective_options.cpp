@@ -41,6 +41,16 @@ std::string environment_name(const std::string& option) {
   return name;
 }
 
+OptionTable option_table(StageOptions& options) {
+  OptionTable table;
+  declare(table, options.aerial_mapping);
+  declare(table, options.ground_mapping);
+  declare(table, options.localizer.matching);
+  declare(table, options.localizer.localization);
+  declare(table, options.localizer.registration);
+  return table;
+}
+
 void add_option_sources(CLI::App& verb, OptionSources& sources) {
   verb.add_option("--preset", sources.preset,
                   "Options to start from: default, or paper (its protocol)")
@@ -53,7 +63,7 @@ void add_option_sources(CLI::App& verb, OptionSources& sources) {
 
 void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& flag,
                      const std::string& option) {
-  LocalizerOptions values;
+  StageOptions values;
   const OptionTable table = option_table(values);
   const Option* declared = table.find(option);
   if (declared == nullptr) throw CLI::BadNameString("no option is named " + option);
@@ -86,7 +96,7 @@ void EffectiveOptions::set(const std::string& name, const std::string& value,
 
 void EffectiveOptions::apply_preset(const std::string& preset) {
   if (preset != "paper") return;
-  values_ = LocalizerOptions::paper();
+  values_.localizer = LocalizerOptions::paper();
   for (const Option& option : table_.options()) {
     if (option.get() != option.default_value) origins_[option.name] = "preset paper";
   }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "invocation.hpp"
+#include "nadir/aerial_mapping/options.hpp"
+#include "nadir/ground_mapping/options.hpp"
 #include "nadir/io/yaml_options.hpp"
 #include "nadir/localizer.hpp"
 
@@ -34,6 +36,16 @@ void add_option_sources(CLI::App& verb, OptionSources& sources);
 void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& flag,
                      const std::string& option);
 
+/// The options of every stage, in the order of the pipeline.
+struct StageOptions {
+  AerialMappingOptions aerial_mapping;
+  GroundMappingOptions ground_mapping;
+  LocalizerOptions localizer;
+};
+
+/// All of them, dotted by stage. `options` must outlive the table.
+OptionTable option_table(StageOptions& options);
+
 /// The options of a run, and where each value came from. By rising precedence: default, preset,
 /// config file, environment (NADIR_MAP_MATCHING_SCORE), --set, flag.
 class EffectiveOptions {
@@ -44,7 +56,9 @@ class EffectiveOptions {
   EffectiveOptions(const EffectiveOptions&) = delete;
   EffectiveOptions& operator=(const EffectiveOptions&) = delete;
 
-  const LocalizerOptions& values() const { return values_; }
+  const LocalizerOptions& values() const { return values_.localizer; }
+  const AerialMappingOptions& aerial_mapping() const { return values_.aerial_mapping; }
+  const GroundMappingOptions& ground_mapping() const { return values_.ground_mapping; }
   const OptionTable& table() const { return table_; }
   const OptionOrigins& origins() const { return origins_; }
 
@@ -54,7 +68,7 @@ class EffectiveOptions {
   void apply_environment();
   void apply_set(const std::string& assignment);
 
-  LocalizerOptions values_;
+  StageOptions values_;
   OptionTable table_;
   OptionOrigins origins_;
 };
