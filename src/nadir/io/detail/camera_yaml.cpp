@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/io/detail/camera_yaml.hpp"
+
+#include <fmt/format.h>
+
+#include "nadir/io/detail/drive_layout.hpp"
+#include "nadir/io/detail/kitti_calibration.hpp"
+#include "nadir/io/detail/yaml_file.hpp"
+#include "nadir/io/input_file.hpp"
+
+namespace nadir {
+namespace {
+
+using std::filesystem::path;
+
+Error key_error(const YAML::Node& node, const path& file, const std::string& problem,
+                const std::string& remedy) {
+  return {ErrorKind::kInput, problem, place_of(node, file), remedy};
+}
+
+std::vector<double> numbers_at(const YAML::Node& map, const std::string& key, std::size_t least,
+                               const path& file) {
+  const YAML::Node list = map[key];
+  if (!list || !list.IsSequence() || list.size() < least) {
+    throw key_error(map, file, fmt::format("'{}' must be a list of {} numbers", key, least),
+                    "give the calibration as its program wrote it");
+  }
+  std::vector<double> numbers;
+  for (const YAML::Node& entry : list) {
+    numbers.push_back(number_in_file(entry.Scalar(), key, place_of(list, file)));
+  }
+  return numbers;
+}
+
+/// pinhole, radial-tangential: the only model that is read; others have another formula.
+void check_models(const YAML::Node& camera, const path& file) {
+  const std::string model = text_at(camera, "camera_model", file);
+  const std::string distortion = text_at(camera, "distortion_model", file);
+  if (model == "pinhole" && (distortion.empty() || distortion == "radtan" ||
+                             distortion == "radial-tangential" || distortion == "none")) {
+    return;
+  }
+  throw key_error(camera, file, fmt::format("the camera is '{}' with '{}'", model, distortion),
+                  "pinhole with radtan is read: calibrate so, or undistort the images");
+}
+
+CameraModel camera_of(const YAML::Node& camera, const std::string& distortion_key,
+                      const path& file) {
+  check_models(camera, file);
+  const std::vector<double> k = numbers_at(camera, "intrinsics", 4, file);
+  const std::vector<double> size = numbers_at(camera, "resolution", 2, file);
+  CameraModel model;
+  model.width = static_cast<int>(size[0]);
+  model.height = static_cast<int>(size[1]);
+  model.fx = k[0];
+  model.fy = k[1];
+  model.cx = k[2];
+  model.cy = k[3];
+  if (!camera[distortion_key]) return model;
+  std::vector<double> d = numbers_at(camera, distortion_key, 4, file);
+  d.resize(5, 0.0);
+  model.k1 = d[0];
+  model.k2 = d[1];
+  model.p1 = d[2];
+  model.p2 = d[3];
+  model.k3 = d[4];
+  return model;
+}
+
+template <class To, class From>
+Transform3<To, From> transform_of(const std::vector<double>& m, const std::string& where) {
+  Eigen::Matrix3d rotation;
+  rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
+  return rigid<To, From>(rotation, {m[3], m[7], m[11]}, where);
+}
+
+}  // namespace
+
+EurocCamera read_euroc_camera(const path& file) {
+  const YAML::Node root = load_yaml(file, ErrorKind::kInput);
+  EurocCamera camera;
+  camera.model = camera_of(root, "distortion_coefficients", file);
+  if (!root["T_BS"] || !root["T_BS"]["data"]) {
+    throw key_error(root, file, "has no T_BS", "give EuRoC's sensor.yaml");
+  }
+  camera.body_from_camera = transform_of<frames::PoseSensor, frames::Camera>(
+      numbers_at(root["T_BS"], "data", 16, file), place_of(root["T_BS"], file));
+  return camera;
+}
+
+StereoRig read_kalibr_rig(const path& file) {
+  const YAML::Node root = load_yaml(file, ErrorKind::kInput);
+  if (!root["cam0"] || !root["cam1"] || !root["cam1"]["T_cn_cnm1"]) {
+    throw input_error(file, "has no cam0, cam1 and T_cn_cnm1",
+                      "give the camchain of a stereo calibration");
+  }
+  StereoRig rig;
+  rig.left = camera_of(root["cam0"], "distortion_coeffs", file);
+  rig.right = camera_of(root["cam1"], "distortion_coeffs", file);
+  std::vector<double> matrix;
+  const YAML::Node rows = root["cam1"]["T_cn_cnm1"];
+  for (const YAML::Node& row : rows) {
+    for (const YAML::Node& entry : row) {
+      matrix.push_back(number_in_file(entry.Scalar(), "T_cn_cnm1", place_of(rows, file)));
+    }
+  }
+  if (matrix.size() != 16) {
+    throw key_error(rows, file, "T_cn_cnm1 is no 4x4 matrix", "give it by rows");
+  }
+  rig.right_from_left =
+      transform_of<frames::RightCamera, frames::Camera>(matrix, place_of(rows, file));
+  check_rig(rig, place_of(rows, file));
+  return rig;
+}
+
+}  // namespace nadir
