@@ -9,6 +9,7 @@
 
 #include "nadir/io/gdal_info.hpp"
 #include "nadir/localizer.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
 #include "nadir/simulation/drive.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
@@ -54,9 +55,12 @@ Check check_gpu() {
 }  // namespace
 
 std::vector<Check> check_backends() {
+  const CudaStatus cuda = cuda_status();
   return {{"backend cpu", true, true, "built and usable"},
           {"backend reference", true, true, "built and usable; slow, the oracle of the tests"},
-          {"backend cuda", false, false, "not part of this build"}};
+          {"backend cuda", cuda.usable, false,
+           fmt::format("{}{}: {}", cuda.built ? "built, " : "",
+                       cuda.usable ? "usable" : "not usable", cuda.detail)}};
 }
 
 std::vector<Check> check_files() {

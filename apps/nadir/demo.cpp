@@ -36,7 +36,8 @@ SeedRun run_way(const Way& way, const Orthomosaic& map, const Sequence& sequence
   OptionSources sources;
   sources.preset = way.preset;
   sources.sets = {std::string("map_matching.score=") + way.score};
-  const EffectiveOptions options(sources);
+  EffectiveOptions options(sources);
+  options.use_device(invocation.common.device);
   const std::uint64_t seed = invocation.common.seed;
   const Prior start = start_of({"truth", "5,5"}, *sequence.truth, seed);
   Progress progress(std::string("localizing, ") + way.name,

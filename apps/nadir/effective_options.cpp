@@ -9,6 +9,7 @@
 #include <set>
 
 #include "nadir/core/error.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -85,6 +86,16 @@ EffectiveOptions::EffectiveOptions(const OptionSources& sources) : table_(option
   for (const std::string& assignment : sources.sets) apply_set(assignment);
   for (const auto& flag : sources.flags) {
     if (flag->value) set(flag->option, *flag->value, flag->flag);
+  }
+}
+
+void EffectiveOptions::use_device(const std::string& device) {
+  const std::string option = "map_matching.backend";
+  const bool on_gpu = values().matching.backend == Backend::kCuda;
+  if (device == "cpu" && on_gpu) set(option, "cpu", "--device");
+  if (device == "cuda" && !on_gpu) set(option, "cuda", "--device");
+  if (device == "auto" && !origins_.contains(option) && cuda_status().usable) {
+    set(option, "cuda", "--device");
   }
 }
 

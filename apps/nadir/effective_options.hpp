@@ -56,6 +56,10 @@ class EffectiveOptions {
   EffectiveOptions(const EffectiveOptions&) = delete;
   EffectiveOptions& operator=(const EffectiveOptions&) = delete;
 
+  /// Lets `--device` choose the backend; `auto` takes the GPU where one is usable and nobody named
+  /// a backend.
+  void use_device(const std::string& device);
+
   const LocalizerOptions& values() const { return values_.localizer; }
   const AerialMappingOptions& aerial_mapping() const { return values_.aerial_mapping; }
   const GroundMappingOptions& ground_mapping() const { return values_.ground_mapping; }

@@ -47,6 +47,7 @@ LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invoc
       frames_(frames_of(options, sequence_, invocation.common.quiet)),
       map_file_(map_path(sequence_, options.map)),
       use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
+  effective_.use_device(invocation.common.device);
   if (use_odometry_file_) note_coverage(*sequence_.odometry, frames_, invocation.common.quiet);
   start_of(options.start, truth_of(sequence_, frames_), invocation.common.seed);
   require_writable(options.run, invocation.common, inputs());

@@ -74,7 +74,8 @@ int run(const MatchVerbOptions& options, const Invocation& invocation) {
   const CommonOptions& common = invocation.common;
   require_device(common);
   const ThreadLimit limit(common);
-  const EffectiveOptions effective(options.sources);
+  EffectiveOptions effective(options.sources);
+  effective.use_device(common.device);
   std::vector<fs::path> inputs{options.site};
   if (!options.map.empty()) inputs.push_back(options.map);
   require_writable(options.output, common, inputs);

@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "nadir/core/error.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
+#include "streams.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -42,9 +44,14 @@ ThreadLimit::ThreadLimit(const CommonOptions& common)
       control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)) {}
 
 void require_device(const CommonOptions& common) {
-  if (common.device != "cuda") return;
-  throw Error(ErrorKind::kUsage, "this build has no CUDA backend", "--device cuda",
-              "use --device cpu or auto");
+  if (common.device == "cpu") return;
+  const CudaStatus status = cuda_status();
+  if (status.usable) return;
+  if (common.device == "cuda") {
+    throw Error(ErrorKind::kUsage, "CUDA cannot be used: " + status.detail, "--device cuda",
+                "use --device cpu or auto");
+  }
+  if (status.built) print_note("computing on the CPU: " + status.detail, common.quiet);
 }
 
 }  // namespace nadir::cli

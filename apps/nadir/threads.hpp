@@ -21,7 +21,8 @@ class ThreadLimit {
   tbb::global_control control_;
 };
 
-/// Throws Error (usage) where `--device` asks for a device that this build cannot use.
+/// Throws Error (usage) where `--device` asks for a device that cannot be used here. Where `auto`
+/// falls back from the GPU that this build could use, a note says why.
 void require_device(const CommonOptions& common);
 
 }  // namespace nadir::cli

@@ -7,6 +7,7 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_site.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
 
 namespace nadir::testing {
 namespace {
@@ -73,8 +74,10 @@ TEST(UsageTest, BadValuesAreUsageErrors) {
                  "nearest: ncc");
   expect_refused(nadir({"localize", site, "-o", run, "--prior", "truth", "--particles", "0"}), 2,
                  "localization.particles");
-  expect_refused(nadir({"localize", site, "-o", run, "--prior", "truth", "--device", "cuda"}), 2,
-                 "cuda");
+  if (!cuda_status().usable) {
+    expect_refused(nadir({"localize", site, "-o", run, "--prior", "truth", "--device", "cuda"}), 2,
+                   "cuda");
+  }
   expect_refused(nadir({"localize", site, "--prior", "truth"}), 2, "--output");
   expect_refused(nadir({"match", site, "-o", run, "--frame", "77"}), 2, "frames 0 to 7");
   EXPECT_FALSE(std::filesystem::exists(run));

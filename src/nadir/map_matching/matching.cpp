@@ -12,10 +12,6 @@
 namespace nadir {
 namespace {
 
-const MatchingBackend& backend_of(const MatchingOptions& options) {
-  return options.backend == Backend::kReference ? reference_backend() : cpu_backend();
-}
-
 /// The headings of a search: evenly spaced, the middle one among them; a full turn has no heading
 /// twice.
 std::vector<double> headings(const SearchRegion& region, double step) {
@@ -76,6 +72,18 @@ MatchStatus failure(const ScoreVolume& volume, double min_valid_weight) {
 
 }  // namespace
 
+const MatchingBackend& backend_of(const MatchingOptions& options) {
+  switch (options.backend) {
+    case Backend::kCuda:
+      return cuda_backend();
+    case Backend::kReference:
+      return reference_backend();
+    case Backend::kCpu:
+      break;
+  }
+  return cpu_backend();
+}
+
 std::string to_string(MatchStatus status) {
   switch (status) {
     case MatchStatus::kOk:
@@ -104,6 +112,7 @@ MapIndex::MapIndex(const Orthomosaic& map, const MatchingOptions& options)
   }
   mean_grey_ = sum / count;
   quads_ = pack_quads(channel_.value, channel_.valid);
+  prepared_ = backend_of(options_).prepare(*this);
 }
 
 Template make_template(const Orthomosaic& local, const MatchingOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ struct ChannelImage {
   GeoReference geo;
 };
 
+class PreparedMap;
+
 /// The global map, prepared once for any number of matches.
 class MapIndex {
  public:
@@ -36,12 +39,14 @@ class MapIndex {
   const MatchingOptions& options() const { return options_; }
   double mean_grey() const { return mean_grey_; }  ///< of the channel's valid pixels
   const Quads& quads() const { return quads_; }    ///< the channel, packed for bilinear sampling
+  PreparedMap* prepared() const { return prepared_.get(); }  ///< the backend's; may be null
 
  private:
   MatchingOptions options_;
   ChannelImage channel_;
   double mean_grey_ = 0.0;
   Quads quads_;
+  std::shared_ptr<PreparedMap> prepared_;
 };
 
 /// A local map, prepared to be matched: the same channel at the same resolution. Its geo-reference

@@ -30,8 +30,10 @@ void declare(OptionTable& table, MatchingOptions& options) {
                             "Weight of wncc_paper: equation 4 in raw pixels as printed, or with "
                             "normalised distances.",
                             "paper, equation 4");
-  table.choice<Backend>(stage + "backend", options.backend, kBackendNames,
-                        "Implementation; reference is slow, in double, and obviously right.");
+  table.choice<Backend>(
+      stage + "backend", options.backend, kBackendNames,
+      "Implementation; cuda needs a GPU, reference is slow, in double, and obviously "
+      "right.");
   table.number(stage + "resolution_m", options.resolution_m, {0.005, 10.0},
                "Metres per pixel at which both maps are compared.", "paper, section II");
   table.number(stage + "high_pass_sigma_m", options.high_pass_sigma_m, {0.1, 50.0},

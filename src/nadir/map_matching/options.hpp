@@ -45,9 +45,9 @@ enum class Channel { kAuto, kGrey, kHighPass };
 inline constexpr std::array<std::pair<Channel, const char*>, 3> kChannelNames{
     {{Channel::kAuto, "auto"}, {Channel::kGrey, "grey"}, {Channel::kHighPass, "high_pass"}}};
 
-enum class Backend { kCpu, kReference };
-inline constexpr std::array<std::pair<Backend, const char*>, 2> kBackendNames{
-    {{Backend::kCpu, "cpu"}, {Backend::kReference, "reference"}}};
+enum class Backend { kCpu, kCuda, kReference };
+inline constexpr std::array<std::pair<Backend, const char*>, 3> kBackendNames{
+    {{Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}, {Backend::kReference, "reference"}}};
 
 struct MatchingOptions {
   Score score = Score::kZwncc;

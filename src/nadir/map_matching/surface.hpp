@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,10 +24,22 @@ struct ScoreSurface {
   Raster<float> valid_weight;
 };
 
+/// What a backend keeps of a map for all matches in it: spectra, copies on a device. It may grow
+/// under its owner's lock, so that matches in one map can run on several threads.
+class PreparedMap {
+ public:
+  PreparedMap() = default;
+  PreparedMap(const PreparedMap&) = delete;
+  PreparedMap& operator=(const PreparedMap&) = delete;
+  virtual ~PreparedMap() = default;
+};
+
 /// What an implementation of map matching provides. Every backend is held to `reference`.
 class MatchingBackend {
  public:
   virtual ~MatchingBackend() = default;
+  /// Called once for a map, when its index is made; nothing where the backend keeps nothing.
+  virtual std::shared_ptr<PreparedMap> prepare(const MapIndex&) const { return nullptr; }
   /// One surface per template, all over the same window.
   virtual std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                                    std::span<const RotatedTemplate> templates,
@@ -37,5 +50,9 @@ class MatchingBackend {
 
 const MatchingBackend& reference_backend();
 const MatchingBackend& cpu_backend();
+/// Its calls throw Error (usage) where this build has no CUDA, (processing) where no GPU can be
+/// used or the GPU fails: cuda_status() tells beforehand.
+const MatchingBackend& cuda_backend();
+const MatchingBackend& backend_of(const MatchingOptions& options);
 
 }  // namespace nadir
