@@ -17,4 +17,9 @@ inline double wrap_angle(double angle_rad) {
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
+/// The yaw (0 = east, counter-clockwise) of a heading (0 = north, clockwise), radians. The heading
+/// must be that of the frame's north: one from true north loses the grid convergence first
+/// (MetricFrame::yaw_of_true_heading).
+inline double yaw_of_heading(double heading_rad) { return wrap_angle(0.5 * kPi - heading_rad); }
+
 }  // namespace nadir
