@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/aerial_mapping/mapping.hpp"
 
-#include "nadir/core/error.hpp"
+#include "nadir/aerial_mapping/detail/pipeline.hpp"
 
 namespace nadir {
 
@@ -11,17 +11,18 @@ std::string to_string(ScaleSource source) {
   return {};
 }
 
-AerialMap map_photos(const PhotoSet& /*photos*/, const AerialMappingOptions& /*options*/,
-                     const MappingProgress& /*progress*/) {
-  throw Error(ErrorKind::kProcessing, "aerial mapping is not finished yet");
-}
-
 bool can_solve_poses() {
 #ifdef NADIR_HAS_SFM
   return true;
 #else
   return false;
 #endif
+}
+
+AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
+                     const MappingProgress& progress) {
+  aerial::Pipeline pipeline(options);
+  return pipeline.run(photos, progress);
 }
 
 }  // namespace nadir

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/detail/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#ifdef NADIR_HAS_SFM
+#include "nadir/aerial_mapping/sfm/triangulation.hpp"
+#endif
+
+namespace nadir::aerial {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+PhotoReport& report_of(const std::string& name, AdjustmentReport& report) {
+  const auto found = std::lower_bound(
+      report.photos.begin(), report.photos.end(), name,
+      [](const PhotoReport& photo, const std::string& wanted) { return photo.name < wanted; });
+  if (found != report.photos.end() && found->name == name) return *found;
+  PhotoReport fresh;
+  fresh.name = name;
+  return *report.photos.insert(found, fresh);
+}
+
+}  // namespace
+
+void fill_views(const PhotoSet& set, const Block& block, const Ground& ground, AerialMap& map) {
+  std::vector<double> heights;
+  std::vector<double> pixels;
+  for (const View& view : block.views) {
+    const std::string& name = set.photos[view.photo].name;
+    PhotoPose pose;
+    pose.name = name;
+    pose.camera = view.camera;
+    pose.map_from_camera.rotation =
+        Eigen::Quaterniond(Eigen::Matrix3d(view.camera_from_map.transpose()));
+    pose.map_from_camera.translation = view.centre;
+    map.poses.push_back(pose);
+    PhotoReport& photo = report_of(name, map.report);
+    photo.registered = !view.provisional;
+    photo.gain = 0.299 * view.gain[0] + 0.587 * view.gain[1] + 0.114 * view.gain[2];
+    photo.ground_below_camera_m =
+        view.centre.z() - ground.height_at(view.centre.x(), view.centre.y());
+    photo.off_nadir_deg = std::acos(std::clamp(-view.camera_from_map(2, 2), -1.0, 1.0)) / kDegree;
+    heights.push_back(photo.ground_below_camera_m);
+    pixels.push_back(photo.ground_below_camera_m / view.camera.fx);
+  }
+  AdjustmentReport& report = map.report;
+  report.registered =
+      static_cast<int>(std::count_if(report.photos.begin(), report.photos.end(),
+                                     [](const PhotoReport& photo) { return photo.registered; }));
+  report.ground_below_camera_m = median_of(heights);
+  report.photo_pixel_m = median_of(pixels);
+}
+
+#ifdef NADIR_HAS_SFM
+
+namespace {
+
+constexpr int kManyViews = 3;
+constexpr std::size_t kManyPoints = 200;
+constexpr double kDoubtfulAltitude = 0.1;
+
+std::string number(double value, int digits) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kMost) text += ", and " + std::to_string(names.size() - kMost) + " more";
+  return text;
+}
+
+void report_observations(const PhotoSet& set, const Reconstruction& found,
+                         AdjustmentReport& report) {
+  std::vector<double> sum(set.photos.size(), 0.0);
+  std::vector<int> count(set.photos.size(), 0);
+  for (const Landmark& landmark : found.model.landmarks) {
+    if (!landmark.valid) continue;
+    for (std::size_t k = 0; k < landmark.track.size(); ++k) {
+      if (landmark.used[k] == 0) continue;
+      const double error = found.model.error_px(landmark.track[k], landmark.position);
+      sum[landmark.track[k].photo] += error * error;
+      ++count[landmark.track[k].photo];
+    }
+  }
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    PhotoReport& photo = report_of(set.photos[i].name, report);
+    photo.observations = count[i];
+    photo.reprojection_px = count[i] > 0 ? std::sqrt(sum[i] / count[i]) : 0.0;
+  }
+  const ReprojectionError total = reprojection_error(found.model);
+  report.points = total.points;
+  report.observations = total.observations;
+  report.reprojection_px = total.rms;
+}
+
+void report_positions(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
+  if (found.scale_source != ScaleSource::kPositions &&
+      found.scale_source != ScaleSource::kControlPoints &&
+      found.scale_source != ScaleSource::kGivenPoses)
+    return;
+  const auto velocities = velocities_of(set.photos);
+  std::array<double, 3> squares{};
+  int count = 0;
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    const Pose& pose = found.model.poses[i];
+    if (!pose.known || !set.photos[i].prior.position) continue;
+    const Eigen::Vector3d residual = pose.centre - found.state.time_offset_s * velocities[i] -
+                                     set.photos[i].prior.position->vector() -
+                                     found.state.position_bias;
+    PhotoReport& photo = report_of(set.photos[i].name, report);
+    photo.position_residual_m = {residual.x(), residual.y(), residual.z()};
+    for (int k = 0; k < 3; ++k) squares[static_cast<std::size_t>(k)] += residual[k] * residual[k];
+    ++count;
+  }
+  if (count == 0) return;
+  report.position_rms_m = {std::sqrt(squares[0] / count), std::sqrt(squares[1] / count),
+                           std::sqrt(squares[2] / count)};
+  report.position_residual_m = std::sqrt((squares[0] + squares[1]) / count);
+  if (found.state.time_offset_s != 0.0) report.time_offset_s = found.state.time_offset_s;
+}
+
+void report_control(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
+  for (std::size_t i = 0; i < set.control_points.size(); ++i) {
+    const GroundControlPoint& point = set.control_points[i];
+    ControlPointReport control;
+    control.name = point.name;
+    const bool known = i < found.state.control_known.size() && found.state.control_known[i] != 0;
+    if (!known) {
+      report.warnings.push_back("control point " + point.name +
+                                " has no part: it needs two marks in mapped photos, and there "
+                                "must be three points that are not on a line");
+      report.control_points.push_back(control);
+      continue;
+    }
+    const Eigen::Vector3d residual = found.state.control[i] - point.position.vector();
+    control.residual_m = {residual.x(), residual.y(), residual.z()};
+    double sum = 0.0;
+    for (const GroundControlPoint::Mark& mark : point.marks) {
+      const auto photo = std::find_if(set.photos.begin(), set.photos.end(),
+                                      [&](const auto& p) { return p.name == mark.photo; });
+      if (photo == set.photos.end()) continue;
+      const auto n = static_cast<std::size_t>(photo - set.photos.begin());
+      if (!found.model.poses[n].known) continue;
+      const double error = found.model.error_px({n, mark.u, mark.v}, found.state.control[i]);
+      sum += error * error;
+      ++control.marks;
+    }
+    if (control.marks > 0) control.reprojection_px = std::sqrt(sum / control.marks);
+    const double allowed_xy = std::max(0.1, 5.0 * point.horizontal_sigma_m);
+    const double allowed_z = std::max(0.2, 5.0 * point.vertical_sigma_m);
+    control.outlier =
+        std::hypot(residual.x(), residual.y()) > allowed_xy || std::abs(residual.z()) > allowed_z;
+    if (control.outlier)
+      report.warnings.push_back("control point " + point.name + " is off by " +
+                                number(residual.x(), 2) + ", " + number(residual.y(), 2) + ", " +
+                                number(residual.z(), 2) +
+                                " m: check its coordinates and its marks");
+    report.control_points.push_back(control);
+  }
+}
+
+void report_groups(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
+  for (const auto& component : found.components) {
+    std::vector<std::string> names;
+    for (const std::size_t i : component) names.push_back(set.photos[i].name);
+    report.components.push_back(std::move(names));
+  }
+  if (report.components.size() < 2) return;
+  std::vector<std::string> left_out;
+  for (std::size_t k = 1; k < report.components.size(); ++k)
+    left_out.insert(left_out.end(), report.components[k].begin(), report.components[k].end());
+  std::sort(left_out.begin(), left_out.end());
+  report.warnings.push_back(std::to_string(left_out.size()) + " of " +
+                            std::to_string(set.photos.size()) +
+                            " photos do not join the map: " + listed(left_out));
+}
+
+void report_scale(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
+  report.scale_source = found.scale_source;
+  report.scale_sigma = found.scale_sigma;
+  report.heading_sigma_deg = found.heading_sigma_rad / kDegree;
+  if (found.scale_source == ScaleSource::kNone)
+    report.warnings.emplace_back(
+        "the scale is arbitrary: nothing says how large the ground is; give positions, control "
+        "points or the size of a photo's pixel on the ground");
+  if (found.scale_source == ScaleSource::kRelativeAltitude)
+    report.warnings.push_back(
+        "the scale comes from the height above take-off alone: uncertain by " +
+        number(100.0 * found.scale_sigma, 0) + " %");
+  // [6] against the ground that was found.
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    const auto& altitude = set.photos[i].prior.relative_altitude_m;
+    if (found.model.poses[i].known && altitude && *altitude > 1.0)
+      ratios.push_back((found.model.poses[i].centre.z() - found.state.ground) / *altitude);
+  }
+  if (ratios.empty() || found.scale_source == ScaleSource::kNone) return;
+  const double off = median_of(ratios) - 1.0;
+  if (std::abs(off) > kDoubtfulAltitude)
+    report.warnings.push_back("surface doubtful: the ground lies " +
+                              number(100.0 * std::abs(off), 0) + " % " +
+                              (off > 0.0 ? "farther" : "nearer") +
+                              " below the photos than their height above take-off says");
+}
+
+}  // namespace
+
+Block block_of(const Reconstruction& found) {
+  Block block;
+  block.ground = found.state.ground;
+  for (std::size_t i = 0; i < found.model.poses.size(); ++i) {
+    const Pose& pose = found.model.poses[i];
+    if (!pose.known) continue;
+    View view;
+    view.photo = i;
+    view.camera = found.model.camera(i);
+    view.camera_from_map = pose.camera_from_map;
+    view.centre = pose.centre;
+    block.views.push_back(view);
+  }
+  std::vector<Eigen::Vector3d> sure;
+  std::vector<Eigen::Vector3d> all;
+  for (const Landmark& landmark : found.model.landmarks) {
+    if (!landmark.valid) continue;
+    all.push_back(landmark.position);
+    if (landmark.used_count() >= kManyViews) sure.push_back(landmark.position);
+  }
+  double height = 0.0;
+  for (const View& view : block.views)
+    height += (view.centre.z() - block.ground) / static_cast<double>(block.views.size());
+  block.points = without_outliers(sure.size() >= kManyPoints ? sure : all, 0.01 * height);
+  return block;
+}
+
+void fill_report(const PhotoSet& set, const Reconstruction& found,
+                 const std::vector<VerifiedPair>& pairs, const AerialMappingOptions& options,
+                 AdjustmentReport& report) {
+  report_observations(set, found, report);
+  report_positions(set, found, report);
+  report_control(set, found, report);
+  report_groups(set, found, report);
+  report_scale(set, found, report);
+  for (const VerifiedPair& pair : pairs)
+    if (pair.support() >= options.min_pair_inliers)
+      report.pairs.push_back({set.photos[pair.first].name, set.photos[pair.second].name,
+                              pair.matches, pair.epipolar_inliers, pair.homography_inliers});
+  for (std::size_t i = 0; i < set.cameras.size(); ++i) {
+    CameraReport camera;
+    camera.name = set.cameras[i].name;
+    camera.model = found.model.cameras[i];
+    camera.prior_focal_px = set.cameras[i].focal.focal_px;
+    camera.focal_source = set.cameras[i].focal.source;
+    if (i < found.focal_sigma.size()) camera.focal_sigma = found.focal_sigma[i];
+    report.cameras.push_back(camera);
+  }
+  report.warnings.insert(report.warnings.end(), found.warnings.begin(), found.warnings.end());
+}
+
+#endif
+
+}  // namespace nadir::aerial

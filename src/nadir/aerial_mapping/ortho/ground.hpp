@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "nadir/core/elevation_map.hpp"
+#include "nadir/core/raster.hpp"
+
+namespace nadir::aerial {
+
+/// The area of a map, metres.
+struct Extent {
+  double west = 0.0;
+  double south = 0.0;
+  double east = 0.0;
+  double north = 0.0;
+};
+
+/// What the photos are projected on: a height everywhere in the extent.
+struct Ground {
+  ElevationMap heights;      ///< without holes
+  Raster<float> distance_m;  ///< same grid: to the nearest point that the heights come from
+  double height_at(double x, double y) const;
+  double distance_at(double x, double y) const;
+};
+
+/// Points that stand out from their neighbours by more than these usually scatter, or than
+/// `tolerance_m` where that is more, are left out.
+std::vector<Eigen::Vector3d> without_outliers(std::vector<Eigen::Vector3d> points,
+                                              double tolerance_m);
+
+/// Points -> Delaunay triangles -> grid, median of 3 x 3. Beyond the triangles the nearest height
+/// goes on. Needs three points that are not on a line, else the plane.
+Ground triangulated_ground(const std::vector<Eigen::Vector3d>& points, const Extent& extent,
+                           double cell_m);
+
+/// z = a + b x + c y fitted robustly to the points; level at `fallback` with fewer than three.
+/// Distances are zero: a plane is everywhere.
+Ground plane_ground(const std::vector<Eigen::Vector3d>& points, const Extent& extent, double cell_m,
+                    double fallback);
+
+}  // namespace nadir::aerial

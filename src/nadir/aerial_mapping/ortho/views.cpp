@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/ortho/views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "nadir/aerial_mapping/ortho/pixels.hpp"
+
+namespace nadir::aerial {
+namespace {
+
+constexpr double kOccluderM = 0.3;  // a step of the ground that is taken for a wall
+constexpr int kSteps = 24;
+
+}  // namespace
+
+std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
+                              const Eigen::Vector3d& point) {
+  const Eigen::Vector3d ray = point - view.centre;
+  const Eigen::Vector3d p = view.camera_from_map * ray;
+  const CameraModel& camera = view.camera;
+  // Far outside the image the distortion folds back: the undistorted place must be near first.
+  if (!(p.z() > 0.0)) return std::nullopt;
+  const double diagonal = std::hypot(camera.width, camera.height);
+  const double radius =
+      std::hypot(p.x() / p.z() * camera.fx, p.y() / p.z() * camera.fy) / (0.5 * diagonal);
+  if (radius > 1.3) return std::nullopt;
+  const auto pixel = camera.project(p);
+  if (!pixel) return std::nullopt;
+  Sight sight{pixel->x(), pixel->y(), 0.0, 0.0};
+  const double left = std::min(sight.u, camera.width - 1.0 - sight.u);
+  const double top = std::min(sight.v, camera.height - 1.0 - sight.v);
+  if (left < 0.0 || top < 0.0) return std::nullopt;
+  if (std::hypot(sight.u - camera.cx, sight.v - camera.cy) > 0.5 * limits.max_radius * diagonal)
+    return std::nullopt;
+  sight.off_nadir_rad = std::atan2(std::hypot(ray.x(), ray.y()), -ray.z());
+  if (sight.off_nadir_rad > limits.max_off_nadir_rad) return std::nullopt;
+  sight.edge = std::min(left / (0.5 * camera.width), top / (0.5 * camera.height));
+  return sight;
+}
+
+bool is_occluded(const View& view, const Ground& ground, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d to = view.centre - point;
+  const double across = std::hypot(to.x(), to.y());
+  if (across < 1e-9 || to.z() <= 0.0) return false;
+  const double cell = ground.heights.geo.resolution;
+  // Beyond the height of a tall building nothing stands in the way.
+  const double kTallest = 40.0;
+  const double reach = std::min(across, kTallest * across / to.z());
+  const double step = std::max(cell, reach / kSteps);
+  for (double d = cell; d <= reach; d += step) {
+    const double f = d / across;
+    const double z = point.z() + f * to.z();
+    if (ground.height_at(point.x() + f * to.x(), point.y() + f * to.y()) > z + kOccluderM)
+      return true;
+  }
+  return false;
+}
+
+std::shared_ptr<const cv::Mat> ViewImages::get(std::size_t view) {
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = entries_.find(view);
+    if (found != entries_.end()) {
+      found->second.used = ++clock_;
+      return found->second.image;
+    }
+  }
+  cv::Mat rgb = rgb_of(set_, views_[view].photo);
+  const double shrink = views_[view].shrink;
+  if (shrink > 1.0) {
+    cv::Mat small;
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(rgb.cols / shrink))),
+                        std::max(1, static_cast<int>(std::lround(rgb.rows / shrink))));
+    cv::resize(rgb, small, size, 0.0, 0.0, cv::INTER_AREA);
+    rgb = small;
+  }
+  auto image = std::make_shared<const cv::Mat>(rgb);
+  const std::scoped_lock lock(mutex_);
+  const auto [place, is_new] = entries_.emplace(view, Entry{image, ++clock_});
+  if (!is_new) return place->second.image;
+  held_ += rgb.total() * rgb.elemSize();
+  while (held_ > budget_ && entries_.size() > 1) {
+    const auto oldest = std::min_element(
+        entries_.begin(), entries_.end(),
+        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    held_ -= oldest->second.image->total() * oldest->second.image->elemSize();
+    entries_.erase(oldest);
+  }
+  return image;
+}
+
+}  // namespace nadir::aerial

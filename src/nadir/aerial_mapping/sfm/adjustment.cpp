@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/sfm/adjustment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "nadir/aerial_mapping/sfm/adjustment_terms.hpp"
+
+namespace nadir::aerial {
+namespace {
+
+// The errors of neighbouring observations are common ones (lens, rolling shutter, relief of the
+// feature itself): a photo's observations weigh as much as this many independent ones of 1 px.
+// Without that bound a slightly wrong lens model outvotes every prior (the report of section 2).
+constexpr double kIndependent = 200.0;
+constexpr double kHeadingSigma = 10.0 * std::numbers::pi / 180.0;  // compass
+constexpr double kTimeOffsetSigma = 0.5;                           // s
+constexpr double kBiasSigma = 100.0;                               // m: another vertical datum
+constexpr double kGroundSigma = 0.3;                               // m: of the mean ground in [6]
+constexpr double kUnheldFocalSigma = 10.0;                         // of ln f: no prior
+constexpr double kPositionTail = 3.0;                              // sigma
+constexpr int kColumns = 16;
+constexpr int kRows = 12;
+constexpr std::size_t kDenseLimit = 60;  // photos
+constexpr int kFewestForOffset = 6;
+
+struct Blocks {
+  std::vector<std::array<double, 6>> poses;
+  std::vector<std::array<double, 3>> lenses;
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::size_t> landmarks;  // of `points`
+  std::vector<std::array<double, 3>> control;
+  double offset = 0.0;
+  std::array<double, 3> bias{};
+  double ground = 0.0;
+};
+
+int cell_of(const CameraModel& camera, const Observation& seen) {
+  const int column =
+      std::clamp(static_cast<int>(seen.u / camera.width * kColumns), 0, kColumns - 1);
+  const int row = std::clamp(static_cast<int>(seen.v / camera.height * kRows), 0, kRows - 1);
+  return row * kColumns + column;
+}
+
+/// The longest tracks first, as long as a cell of one of their photos still wants them.
+std::vector<std::size_t> choose_landmarks(const Model& model, int share) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < model.landmarks.size(); ++i)
+    if (model.landmarks[i].valid) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return model.landmarks[a].used_count() > model.landmarks[b].used_count();
+  });
+  std::vector<std::array<int, static_cast<std::size_t>(kColumns * kRows)>> taken(
+      model.poses.size());
+  for (auto& cells : taken) cells.fill(0);
+  std::vector<std::size_t> chosen;
+  for (const std::size_t i : order) {
+    const Landmark& landmark = model.landmarks[i];
+    bool wanted = false;
+    for (std::size_t k = 0; k < landmark.track.size(); ++k) {
+      if (landmark.used[k] == 0) continue;
+      const Observation& seen = landmark.track[k];
+      const int cell = cell_of(model.camera(seen.photo), seen);
+      int& count = taken[seen.photo][static_cast<std::size_t>(cell)];
+      wanted = wanted || count < share;
+    }
+    if (!wanted) continue;
+    chosen.push_back(i);
+    for (std::size_t k = 0; k < landmark.track.size(); ++k)
+      if (landmark.used[k] != 0) {
+        const Observation& seen = landmark.track[k];
+        ++taken[seen.photo][static_cast<std::size_t>(cell_of(model.camera(seen.photo), seen))];
+      }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+Blocks blocks_of(const Model& model, const AdjustmentState& state,
+                 const std::vector<std::size_t>& landmarks) {
+  Blocks blocks;
+  blocks.poses.resize(model.poses.size());
+  for (std::size_t i = 0; i < model.poses.size(); ++i) {
+    const Pose& pose = model.poses[i];
+    const Eigen::AngleAxisd turn(pose.camera_from_map);
+    const Eigen::Vector3d vector = turn.angle() * turn.axis();
+    blocks.poses[i] = {vector.x(),      vector.y(),      vector.z(),
+                       pose.centre.x(), pose.centre.y(), pose.centre.z()};
+  }
+  for (const CameraModel& camera : model.cameras)
+    blocks.lenses.push_back({std::log(camera.fx), camera.k1, camera.k2});
+  blocks.landmarks = landmarks;
+  for (const std::size_t i : landmarks) {
+    const Eigen::Vector3d& p = model.landmarks[i].position;
+    blocks.points.push_back({p.x(), p.y(), p.z()});
+  }
+  for (const Eigen::Vector3d& p : state.control) blocks.control.push_back({p.x(), p.y(), p.z()});
+  blocks.offset = state.time_offset_s;
+  blocks.bias = {state.position_bias.x(), state.position_bias.y(), state.position_bias.z()};
+  blocks.ground = state.ground;
+  return blocks;
+}
+
+/// Builds and solves one problem over the blocks.
+class Adjustment {
+ public:
+  Adjustment(const Model& model, const AdjustmentState& state, const PhotoSet& set,
+             const AerialMappingOptions& options, const AdjustmentPlan& plan)
+      : model_(model),
+        state_(state),
+        set_(set),
+        options_(options),
+        plan_(plan),
+        blocks_(blocks_of(model, state, choose_landmarks(model, plan.cell_share))) {
+    add_observations();
+    add_positions();
+    add_attitudes();
+    add_ground();
+    add_lenses();
+    add_control();
+    hold();
+  }
+
+  int solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type =
+        model_.poses.size() < kDenseLimit ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+    options.max_num_iterations = plan_.max_iterations;
+    options.num_threads = 1;  // sums of several threads would depend on their order
+    options.function_tolerance = 1e-7;
+    options.logging_type = ceres::SILENT;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    std::vector<double*> all;
+    problem_.GetParameterBlocks(&all);
+    for (double* block : all) options.linear_solver_ordering->AddElementToGroup(block, 1);
+    for (auto& point : blocks_.points)
+      if (problem_.HasParameterBlock(point.data()))
+        options.linear_solver_ordering->AddElementToGroup(point.data(), 0);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return static_cast<int>(summary.iterations.size());
+  }
+
+  std::vector<double> focal_sigmas() {
+    std::vector<double> sigmas(blocks_.lenses.size(), 0.0);
+    ceres::Covariance::Options options;
+    options.num_threads = 1;
+    ceres::Covariance covariance(options);
+    std::vector<std::pair<const double*, const double*>> wanted;
+    for (const auto& lens : blocks_.lenses)
+      if (problem_.HasParameterBlock(lens.data()) &&
+          !problem_.IsParameterBlockConstant(lens.data()))
+        wanted.emplace_back(lens.data(), lens.data());
+    if (wanted.empty() || !covariance.Compute(wanted, &problem_)) return sigmas;
+    for (std::size_t i = 0; i < sigmas.size(); ++i) {
+      const double* lens = blocks_.lenses[i].data();
+      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> block;
+      if (problem_.HasParameterBlock(lens) &&
+          covariance.GetCovarianceBlock(lens, lens, block.data()))
+        sigmas[i] = std::sqrt(std::max(0.0, block(0, 0)));
+    }
+    return sigmas;
+  }
+
+  const Blocks& blocks() const { return blocks_; }
+
+ private:
+  ceres::LossFunction* loss(double weight) {
+    ceres::LossFunction* tail =
+        plan_.heavy_tail ? static_cast<ceres::LossFunction*>(new ceres::CauchyLoss(plan_.loss_px))
+                         : new ceres::HuberLoss(plan_.loss_px);
+    return new ceres::ScaledLoss(tail, weight, ceres::TAKE_OWNERSHIP);
+  }
+
+  void add_observations() {
+    std::vector<int> count(model_.poses.size(), 0);
+    for (const std::size_t i : blocks_.landmarks)
+      for (std::size_t k = 0; k < model_.landmarks[i].track.size(); ++k)
+        if (model_.landmarks[i].used[k] != 0) ++count[model_.landmarks[i].track[k].photo];
+    for (std::size_t photo = 0; photo < count.size(); ++photo)
+      weight_.push_back(std::min(1.0, kIndependent / std::max(1, count[photo])));
+    for (std::size_t n = 0; n < blocks_.landmarks.size(); ++n) {
+      const Landmark& landmark = model_.landmarks[blocks_.landmarks[n]];
+      for (std::size_t k = 0; k < landmark.track.size(); ++k) {
+        if (landmark.used[k] == 0) continue;
+        const Observation& seen = landmark.track[k];
+        const CameraModel& camera = model_.camera(seen.photo);
+        problem_.AddResidualBlock(ReprojectionTerm::create(seen.u, seen.v, camera.cx, camera.cy),
+                                  loss(weight_[seen.photo]), blocks_.poses[seen.photo].data(),
+                                  blocks_.lenses[model_.camera_of[seen.photo]].data(),
+                                  blocks_.points[n].data());
+      }
+    }
+  }
+
+  bool takes_part(std::size_t photo) const {
+    return problem_.HasParameterBlock(blocks_.poses[photo].data());
+  }
+
+  void add_positions() {
+    if (!plan_.use_positions) return;
+    const std::vector<Eigen::Vector3d> velocities = velocities_of(set_.photos);
+    int with_velocity = 0;
+    for (std::size_t i = 0; i < set_.photos.size(); ++i) {
+      const PhotoPrior& prior = set_.photos[i].prior;
+      if (!prior.position || !takes_part(i)) continue;
+      const double xy = prior.horizontal_sigma_m.value_or(options_.gps_sigma_m);
+      const double z = prior.vertical_sigma_m.value_or(3.0 * xy);
+      if (velocities[i].norm() > 0.5) ++with_velocity;
+      problem_.AddResidualBlock(
+          PositionTerm::create(prior.position->vector(), velocities[i], {xy, xy, z}),
+          new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data(), &blocks_.offset,
+          blocks_.bias.data());
+    }
+    if (!problem_.HasParameterBlock(&blocks_.offset)) return;
+    const Eigen::Matrix<double, 1, 1> zero = Eigen::Matrix<double, 1, 1>::Zero();
+    problem_.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<SoftHold<1>, 1, 1>(
+            new SoftHold<1>{zero, Eigen::Matrix<double, 1, 1>::Constant(kTimeOffsetSigma), 0}),
+        nullptr, &blocks_.offset);
+    if (with_velocity < kFewestForOffset) problem_.SetParameterBlockConstant(&blocks_.offset);
+    const bool surveyed =
+        std::count(state_.control_known.begin(), state_.control_known.end(), 1) >= 3;
+    if (surveyed)
+      problem_.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<SoftHold<3>, 3, 3>(
+              new SoftHold<3>{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(kBiasSigma), 0}),
+          nullptr, blocks_.bias.data());
+    else
+      problem_.SetParameterBlockConstant(blocks_.bias.data());
+  }
+
+  void add_attitudes() {
+    const double sigma = options_.gimbal_sigma_deg * std::numbers::pi / 180.0;
+    for (std::size_t i = 0; i < set_.photos.size(); ++i) {
+      const auto& attitude = set_.photos[i].prior.attitude;
+      if (!takes_part(i)) continue;
+      if (attitude && sigma > 0.0) {
+        const Eigen::Matrix3d camera_from_map = map_from_camera_rotation(*attitude).transpose();
+        problem_.AddResidualBlock(VerticalTerm::create(-camera_from_map.col(2), sigma),
+                                  new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
+      }
+      if (!attitude && plan_.nadir_sigma_deg > 0.0)
+        problem_.AddResidualBlock(
+            VerticalTerm::create(Eigen::Vector3d::UnitZ(),
+                                 plan_.nadir_sigma_deg * std::numbers::pi / 180.0),
+            new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
+      if (attitude && plan_.use_heading) {
+        const Eigen::Matrix3d map_from_camera = map_from_camera_rotation(*attitude);
+        problem_.AddResidualBlock(
+            HeadingTerm::create(Eigen::Vector3d::UnitX(), map_from_camera.col(0), kHeadingSigma),
+            new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
+      }
+      if (plan_.gauge_sigma_m > 0.0) {
+        const double s = plan_.gauge_sigma_m;
+        problem_.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<SoftHold<3>, 3, 6>(
+                new SoftHold<3>{model_.poses[i].centre, Eigen::Vector3d::Constant(s), 3}),
+            nullptr, blocks_.poses[i].data());
+      }
+    }
+  }
+
+  void add_ground() {
+    std::vector<std::size_t> with_altitude;
+    for (std::size_t i = 0; i < set_.photos.size(); ++i)
+      if (takes_part(i) && set_.photos[i].prior.relative_altitude_m &&
+          *set_.photos[i].prior.relative_altitude_m > 1.0)
+        with_altitude.push_back(i);
+    const bool altitude = options_.relative_altitude_sigma_m > 0.0 && !with_altitude.empty();
+    if ((!altitude && plan_.flat_sigma_m <= 0.0) || blocks_.points.empty()) return;
+    const auto points = static_cast<double>(blocks_.points.size());
+    const double sigma =
+        plan_.flat_sigma_m > 0.0 ? plan_.flat_sigma_m : kGroundSigma * std::sqrt(points);
+    for (auto& point : blocks_.points)
+      problem_.AddResidualBlock(GroundTerm::create(sigma), nullptr, point.data(), &blocks_.ground);
+    if (!altitude) return;
+    // One residual for the block: its square is the mean of the photos'.
+    const double each =
+        options_.relative_altitude_sigma_m * std::sqrt(static_cast<double>(with_altitude.size()));
+    for (const std::size_t i : with_altitude)
+      problem_.AddResidualBlock(
+          RelativeAltitudeTerm::create(*set_.photos[i].prior.relative_altitude_m, each), nullptr,
+          blocks_.poses[i].data(), &blocks_.ground);
+  }
+
+  void add_lenses() {
+    for (std::size_t i = 0; i < blocks_.lenses.size(); ++i) {
+      double* lens = blocks_.lenses[i].data();
+      if (!problem_.HasParameterBlock(lens)) continue;
+      if (plan_.hold_cameras) {
+        problem_.SetParameterBlockConstant(lens);
+        continue;
+      }
+      const FocalPrior& prior = set_.cameras[i].focal;
+      const bool known = prior.focal_px > 0.0 && !options_.free_focal;
+      const double sigma = known ? std::max(1e-6, prior.relative_sigma) : kUnheldFocalSigma;
+      const double log_focal = prior.focal_px > 0.0 ? std::log(prior.focal_px) : lens[0];
+      const double distortion = options_.distortion_prior_sigma;
+      problem_.AddResidualBlock(
+          LensTerm::create(log_focal, sigma, distortion > 0.0 ? distortion : 1.0), nullptr, lens);
+      if (distortion <= 0.0) problem_.SetManifold(lens, new ceres::SubsetManifold(3, {1, 2}));
+    }
+  }
+
+  void add_control() {
+    for (std::size_t i = 0; i < set_.control_points.size(); ++i) {
+      if (i >= state_.control_known.size() || state_.control_known[i] == 0) continue;
+      const GroundControlPoint& point = set_.control_points[i];
+      for (const GroundControlPoint::Mark& mark : point.marks) {
+        const auto photo = std::find_if(set_.photos.begin(), set_.photos.end(),
+                                        [&](const auto& p) { return p.name == mark.photo; });
+        if (photo == set_.photos.end()) continue;
+        const auto n = static_cast<std::size_t>(photo - set_.photos.begin());
+        if (!takes_part(n)) continue;
+        const CameraModel& camera = model_.camera(n);
+        problem_.AddResidualBlock(ReprojectionTerm::create(mark.u, mark.v, camera.cx, camera.cy),
+                                  new ceres::HuberLoss(2.0), blocks_.poses[n].data(),
+                                  blocks_.lenses[model_.camera_of[n]].data(),
+                                  blocks_.control[i].data());
+      }
+      if (!problem_.HasParameterBlock(blocks_.control[i].data())) continue;
+      const double xy = std::max(1e-4, point.horizontal_sigma_m);
+      const double z = std::max(1e-4, point.vertical_sigma_m);
+      problem_.AddResidualBlock(ControlTerm::create(point.position.vector(), {xy, xy, z}),
+                                new ceres::CauchyLoss(kPositionTail), blocks_.control[i].data());
+    }
+  }
+
+  void hold() {
+    for (std::size_t i = 0; i < plan_.held.size(); ++i)
+      if (plan_.held[i] != 0 && takes_part(i))
+        problem_.SetParameterBlockConstant(blocks_.poses[i].data());
+  }
+
+  const Model& model_;
+  const AdjustmentState& state_;
+  const PhotoSet& set_;
+  const AerialMappingOptions& options_;
+  const AdjustmentPlan& plan_;
+  Blocks blocks_;
+  ceres::Problem problem_;
+  std::vector<double> weight_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> velocities_of(const std::vector<MappingPhoto>& photos) {
+  std::vector<Eigen::Vector3d> velocities(photos.size(), Eigen::Vector3d::Zero());
+  std::map<std::size_t, std::vector<std::size_t>> by_camera;
+  for (std::size_t i = 0; i < photos.size(); ++i)
+    if (photos[i].prior.position && photos[i].prior.taken_at)
+      by_camera[photos[i].camera].push_back(i);
+  const double kLongestGap = 20.0;  // s: beyond, it is another strip or another flight
+  for (auto& [camera, order] : by_camera) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return *photos[a].prior.taken_at < *photos[b].prior.taken_at;
+    });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const PhotoPrior& before = photos[order[k > 0 ? k - 1 : k]].prior;
+      const PhotoPrior& after = photos[order[k + 1 < order.size() ? k + 1 : k]].prior;
+      const double seconds = after.taken_at->seconds() - before.taken_at->seconds();
+      if (seconds > 0.5 && seconds < kLongestGap)
+        velocities[order[k]] = (after.position->vector() - before.position->vector()) / seconds;
+    }
+  }
+  return velocities;
+}
+
+void adjust(Model& model, AdjustmentState& state, const PhotoSet& set,
+            const AerialMappingOptions& options, const AdjustmentPlan& plan) {
+  Adjustment adjustment(model, state, set, options, plan);
+  if (adjustment.blocks().points.empty()) return;
+  state.iterations += adjustment.solve();
+  const Blocks& blocks = adjustment.blocks();
+  for (std::size_t i = 0; i < model.poses.size(); ++i) {
+    if (!model.poses[i].known) continue;
+    const auto& b = blocks.poses[i];
+    const Eigen::Vector3d vector{b[0], b[1], b[2]};
+    const double angle = vector.norm();
+    model.poses[i].camera_from_map =
+        angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
+                    : Eigen::Matrix3d::Identity();
+    model.poses[i].centre = {b[3], b[4], b[5]};
+  }
+  for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+    model.cameras[i].fx = model.cameras[i].fy = std::exp(blocks.lenses[i][0]);
+    model.cameras[i].k1 = blocks.lenses[i][1];
+    model.cameras[i].k2 = blocks.lenses[i][2];
+  }
+  for (std::size_t n = 0; n < blocks.landmarks.size(); ++n)
+    model.landmarks[blocks.landmarks[n]].position = {blocks.points[n][0], blocks.points[n][1],
+                                                     blocks.points[n][2]};
+  for (std::size_t i = 0; i < state.control.size(); ++i)
+    state.control[i] = {blocks.control[i][0], blocks.control[i][1], blocks.control[i][2]};
+  state.time_offset_s = blocks.offset;
+  state.position_bias = {blocks.bias[0], blocks.bias[1], blocks.bias[2]};
+  state.ground = blocks.ground;
+}
+
+std::vector<double> focal_sigmas(const Model& model, const AdjustmentState& state,
+                                 const PhotoSet& set, const AerialMappingOptions& options,
+                                 const AdjustmentPlan& plan) {
+  Adjustment adjustment(model, state, set, options, plan);
+  return adjustment.focal_sigmas();
+}
+
+}  // namespace nadir::aerial

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/sfm/photo_graph.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "nadir/aerial_mapping/ortho/pixels.hpp"
+
+namespace nadir::aerial {
+namespace {
+
+constexpr std::size_t kFeatureMemory = 700U << 20U;  // bytes that all detectors together may use
+constexpr int kCoarseFeatures = 1200;
+constexpr std::size_t kCoarseMatches = 12;
+constexpr std::size_t kFewPhotos = 12;  // whose pairs are all tried in full
+
+/// Counts finished work and passes the share on, from one thread at a time.
+class Counter {
+ public:
+  Counter(std::size_t total, const Share& progress) : total_(total), progress_(progress) {}
+  void done() {
+    const std::scoped_lock lock(mutex_);
+    ++count_;
+    if (progress_) progress_(static_cast<double>(count_) / static_cast<double>(total_));
+  }
+
+ private:
+  std::size_t total_;
+  const Share& progress_;
+  std::size_t count_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
+  std::vector<std::size_t> wanted;
+  std::size_t largest = 1;
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    if (photos_.contains(set.photos[i].name)) continue;
+    wanted.push_back(i);
+    const CameraPrior& camera = set.cameras[set.photos[i].camera];
+    largest = std::max(largest, feature_memory(camera.width, camera.height));
+  }
+  if (wanted.empty()) return;
+  std::vector<Entry> found(wanted.size());
+  Counter counter(wanted.size(), progress);
+  const auto detect_one = [&](std::size_t k) {
+    Entry& entry = found[k];
+    const MappingPhoto& photo = set.photos[wanted[k]];
+    entry.features = find_features(load_checked(set, wanted[k]), options_.features_per_photo);
+    entry.index =
+        std::make_unique<DescriptorIndex>(entry.features.descriptors, seed_of(photo.name));
+    counter.done();
+  };
+  const auto together = static_cast<int>(std::max<std::size_t>(1, kFeatureMemory / largest));
+  tbb::task_arena arena(std::min(together, tbb::this_task_arena::max_concurrency()));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, wanted.size(), detect_one); });
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    photos_[set.photos[wanted[k]].name] = std::move(found[k]);
+}
+
+void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress) {
+  PhotoPairs wanted;
+  for (const auto& [a, b] : pairs)
+    if (!pairs_.contains({set.photos[a].name, set.photos[b].name})) wanted.emplace_back(a, b);
+  if (wanted.empty()) return;
+  std::vector<VerifiedPair> found(wanted.size());
+  Counter counter(wanted.size(), progress);
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+    const auto& [a, b] = wanted[k];
+    const Entry& first = photos_.at(set.photos[a].name);
+    const Entry& second = photos_.at(set.photos[b].name);
+    VerifiedPair& pair = found[k];
+    const bool near = set.photos[a].prior.position && set.photos[b].prior.position;
+    const bool promising = near || set.photos.size() <= kFewPhotos ||
+                           match_features(first.features, second.features, *first.index,
+                                          *second.index, kCoarseFeatures)
+                                   .size() >= kCoarseMatches;
+    if (promising)
+      verify(first.features, second.features,
+             match_features(first.features, second.features, *first.index, *second.index),
+             seed_of(set.photos[a].name + "\n" + set.photos[b].name), pair);
+    counter.done();
+  });
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    pairs_[{set.photos[wanted[k].first].name, set.photos[wanted[k].second].name}] =
+        std::move(found[k]);
+}
+
+std::vector<PhotoFeatures> PhotoGraph::features(const PhotoSet& set) const {
+  std::vector<PhotoFeatures> features;
+  for (const MappingPhoto& photo : set.photos) {
+    PhotoFeatures points;  // without descriptors: they are only for matching
+    points.points = photos_.at(photo.name).features.points;
+    features.push_back(std::move(points));
+  }
+  return features;
+}
+
+std::vector<VerifiedPair> PhotoGraph::verified(const PhotoSet& set, const PhotoPairs& pairs) const {
+  std::vector<VerifiedPair> verified;
+  for (const auto& [a, b] : pairs) {
+    const auto found = pairs_.find({set.photos[a].name, set.photos[b].name});
+    if (found == pairs_.end()) continue;
+    verified.push_back(found->second);
+    verified.back().first = a;
+    verified.back().second = b;
+  }
+  return verified;
+}
+
+}  // namespace nadir::aerial

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nadir/aerial_mapping/options.hpp"
+#include "nadir/aerial_mapping/photo_set.hpp"
+#include "nadir/aerial_mapping/sfm/matching.hpp"
+#include "nadir/aerial_mapping/sfm/pairs.hpp"
+
+namespace nadir::aerial {
+
+/// Called with the finished share, 0 .. 1.
+using Share = std::function<void(double)>;
+
+/// Features of photos and the geometry of pairs, found once and kept by the photos' names, so that
+/// a map that grows finds only what is new.
+class PhotoGraph {
+ public:
+  explicit PhotoGraph(const AerialMappingOptions& options) : options_(options) {}
+
+  /// Features of the photos that have none yet.
+  void detect(const PhotoSet& set, const Share& progress);
+
+  /// Geometry of the pairs that have none yet. Pairs of photos that no position brought together
+  /// (`coarse`) are first tried with their largest features alone.
+  void match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress);
+
+  /// Features of the photos of a set, in its order.
+  std::vector<PhotoFeatures> features(const PhotoSet& set) const;
+
+  /// The pairs that were matched, with the photos' numbers in the set; sorted.
+  std::vector<VerifiedPair> verified(const PhotoSet& set, const PhotoPairs& pairs) const;
+
+ private:
+  struct Entry {
+    PhotoFeatures features;
+    std::unique_ptr<DescriptorIndex> index;
+  };
+  const AerialMappingOptions options_;
+  std::map<std::string, Entry> photos_;
+  std::map<std::pair<std::string, std::string>, VerifiedPair> pairs_;
+};
+
+}  // namespace nadir::aerial

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/sfm/reconstruction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "nadir/aerial_mapping/sfm/control.hpp"
+#include "nadir/aerial_mapping/sfm/pairs.hpp"
+#include "nadir/aerial_mapping/sfm/pose_start.hpp"
+#include "nadir/aerial_mapping/sfm/resection.hpp"
+#include "nadir/aerial_mapping/sfm/triangulation.hpp"
+#include "nadir/core/error.hpp"
+
+namespace nadir::aerial {
+namespace {
+
+constexpr double kFlatness = 0.04;       // relief of the first round, in flying heights
+constexpr int kFewestObservations = 15;  // that hold a photo
+constexpr double kNarrow = 0.15;         // width of a strip in lengths
+constexpr double kNadirSigmaDeg = 10.0;
+
+double median_height(const Model& model, double ground) {
+  std::vector<double> heights;
+  for (const Pose& pose : model.poses)
+    if (pose.known) heights.push_back(pose.centre.z() - ground);
+  if (heights.empty()) return 1.0;
+  std::nth_element(heights.begin(),
+                   heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
+                   heights.end());
+  return std::max(1e-6, heights[heights.size() / 2]);
+}
+
+std::vector<int> observations_of(const Model& model) {
+  std::vector<int> count(model.poses.size(), 0);
+  for (const Landmark& landmark : model.landmarks)
+    if (landmark.valid)
+      for (std::size_t k = 0; k < landmark.track.size(); ++k)
+        if (landmark.used[k] != 0) ++count[landmark.track[k].photo];
+  return count;
+}
+
+void update_ground(const Model& model, AdjustmentState& state) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Landmark& landmark : model.landmarks)
+    if (landmark.valid) {
+      sum += landmark.position.z();
+      ++count;
+    }
+  if (count > 0) state.ground = sum / count;
+}
+
+/// One reconstruction in the making.
+class Reconstructor {
+ public:
+  Reconstructor(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                const std::vector<VerifiedPair>& pairs, const AerialMappingOptions& options)
+      : set_(set), features_(features), pairs_(pairs), options_(options) {
+    result_.model = start_model(set, features, pairs, options.min_pair_inliers);
+    PhotoPairs links;
+    for (const VerifiedPair& pair : pairs)
+      if (pair.support() >= options.min_pair_inliers) links.emplace_back(pair.first, pair.second);
+    result_.components = components_of(set.photos.size(), links);
+  }
+
+  Reconstruction from_matches() {
+    const std::vector<std::size_t> group = result_.components.front();
+    if (group.size() < 2)
+      throw Error(ErrorKind::kNoResult, "no two photos join each other", {},
+                  "photos must overlap by more than half and show texture");
+    std::vector<VerifiedPair> links;
+    for (const VerifiedPair& pair : pairs_)
+      if (pair.support() >= options_.min_pair_inliers) links.push_back(pair);
+    lay_out(model(), group, set_.photos, features_, links);
+    placement_ = place(model(), group, set_.photos);
+    state().ground = placement_.ground;
+    choose_gauge(group);
+    settle_on_plane();
+    round(8.0, 12);
+    find_lost(group);
+    round(4.0, 20);
+    find_lost(group);
+    if (take_control_points(model(), state(), set_)) placement_.scale = true;
+    round(2.0, 30);
+    round(1.5, 30);
+    drop_lost();
+    finish();
+    return std::move(result_);
+  }
+
+  Reconstruction from_given_poses() {
+    for (std::size_t i = 0; i < set_.photos.size(); ++i) {
+      const PhotoPose& given = *set_.photos[i].pose;
+      model().cameras[set_.photos[i].camera] = given.camera;
+      Pose& pose = model().poses[i];
+      pose.camera_from_map =
+          given.map_from_camera.rotation.normalized().toRotationMatrix().transpose();
+      pose.centre = given.map_from_camera.translation;
+      pose.known = true;
+    }
+    result_.components = {std::vector<std::size_t>(set_.photos.size())};
+    std::iota(result_.components[0].begin(), result_.components[0].end(), std::size_t{0});
+    triangulate(model(), {4.0, 1.0, 2});
+    update_ground(model(), state());
+    if (options_.refine_given_poses) {
+      placement_.scale = placement_.position = true;
+      plan_.gauge_sigma_m = 0.1 * median_height(model(), state().ground);
+      take_control_points(model(), state(), set_);
+      round(4.0, 30);
+      round(2.0, 30);
+    }
+    triangulate(model(), {options_.refine_given_poses ? 1.5 : 3.0, 1.0, 2});
+    result_.scale_source = ScaleSource::kGivenPoses;
+    return std::move(result_);
+  }
+
+ private:
+  Model& model() { return result_.model; }
+  AdjustmentState& state() { return result_.state; }
+
+  void choose_gauge(const std::vector<std::size_t>& group) {
+    const auto widths = widths_of_positions(group, set_.photos);
+    const bool positions = placement_.position && placement_.scale;
+    plan_.use_positions = placement_.position;
+    plan_.use_heading = !positions;
+    bool attitudes = options_.gimbal_sigma_deg > 0.0;
+    for (const std::size_t i : group) attitudes = attitudes && set_.photos[i].prior.attitude;
+    if (!positions) plan_.gauge_sigma_m = median_height(model(), state().ground);
+    levelled_ = attitudes;
+    if (attitudes) return;
+    if (!positions || !widths || widths->second < kNarrow * widths->first) {
+      plan_.nadir_sigma_deg = kNadirSigmaDeg;
+      if (positions)
+        result_.warnings.emplace_back(
+            "one straight strip without gimbal angles: the turn about it is held by the "
+            "assumption that the photos look straight down");
+    }
+  }
+
+  /// The start knows poses to some per cent of the flying height: the ground is a plane to it, at
+  /// first strictly, then with relief.
+  void settle_on_plane() {
+    const double height = median_height(model(), state().ground);
+    for (const double spread : {0.6, 0.3}) {
+      place_on_plane(model(), state().ground, spread * height);
+      AdjustmentPlan plan = plan_;
+      plan.flat_sigma_m = kFlatness * height;
+      plan.heavy_tail = true;
+      plan.loss_px = spread * 20.0;
+      plan.hold_cameras = true;
+      plan.cell_share = 1;
+      plan.max_iterations = 25;
+      adjust(model(), state(), set_, options_, plan);
+    }
+  }
+
+  void round(double gate_px, int iterations) {
+    triangulate(model(), {gate_px, 1.0, 2});
+    update_ground(model(), state());
+    AdjustmentPlan plan = plan_;
+    plan.loss_px = std::max(1.0, 0.5 * gate_px);
+    plan.max_iterations = iterations;
+    plan.hold_cameras = gate_px > 4.0;
+    plan.cell_share = gate_px > 2.0 ? 1 : 2;
+    adjust(model(), state(), set_, options_, plan);
+  }
+
+  /// Photos that their start left far from the others are found again from the others' points.
+  void find_lost(const std::vector<std::size_t>& group) {
+    triangulate(model(), {6.0, 1.0, 2});
+    for (int pass = 0; pass < 5; ++pass) {
+      const std::vector<int> count = observations_of(model());
+      std::vector<std::size_t> lost;
+      for (const std::size_t i : group)
+        if (!model().poses[i].known || count[i] < kFewestObservations) lost.push_back(i);
+      if (lost.empty() || lost.size() + 2 > group.size()) return;
+      for (const std::size_t i : lost) model().poses[i].known = false;
+      triangulate(model(), {6.0, 1.0, 2});
+      bool found = false;
+      for (const std::size_t i : lost)
+        found = resect(model(), i, kFewestObservations, 8.0, seed_of(set_.photos[i].name)) || found;
+      if (!found) return;
+      triangulate(model(), {6.0, 1.0, 2});
+    }
+  }
+
+  void drop_lost() {
+    triangulate(model(), {1.5, 1.0, 2});
+    const std::vector<int> count = observations_of(model());
+    std::vector<std::size_t> kept;
+    std::vector<std::vector<std::size_t>> others;
+    for (const std::size_t i : result_.components.front()) {
+      if (model().poses[i].known && count[i] >= kFewestObservations) {
+        kept.push_back(i);
+        continue;
+      }
+      model().poses[i].known = false;
+      others.push_back({i});
+    }
+    if (kept.size() < 2)
+      throw Error(ErrorKind::kNoResult, "the photos do not agree with one ground", {},
+                  "check focal length and positions");
+    if (!others.empty()) {
+      result_.components.front() = kept;
+      result_.components.insert(result_.components.end(), others.begin(), others.end());
+      triangulate(model(), {1.5, 1.0, 2});
+    }
+  }
+
+  void finish() {
+    AdjustmentPlan thinned = plan_;
+    thinned.cell_share = 1;
+    result_.focal_sigma = focal_sigmas(model(), state(), set_, options_, thinned);
+    if (!levelled_ && !(placement_.position && placement_.scale)) level(model());
+    update_ground(model(), state());
+    set_scale();
+    say_uncertainty();
+  }
+
+  void set_scale() {
+    const bool control =
+        std::count(state().control_known.begin(), state().control_known.end(), 1) >= 3;
+    if (control) {
+      result_.scale_source = ScaleSource::kControlPoints;
+    } else if (placement_.position && placement_.scale && placement_.heading &&
+               plan_.gauge_sigma_m == 0.0) {
+      result_.scale_source = ScaleSource::kPositions;
+    } else if (set_.metres_per_photo_pixel) {
+      rescale(*set_.metres_per_photo_pixel);
+      result_.scale_source = ScaleSource::kPhotoPixelSize;
+    } else if (placement_.scale) {
+      result_.scale_source = ScaleSource::kRelativeAltitude;
+    } else {
+      rescale(options_.resolution_m);
+      result_.scale_source = ScaleSource::kNone;
+    }
+  }
+
+  /// So that a pixel of the middle photo is as large on the ground.
+  void rescale(double pixel_m) {
+    std::vector<double> pixels;
+    for (std::size_t i = 0; i < model().poses.size(); ++i)
+      if (model().poses[i].known)
+        pixels.push_back((model().poses[i].centre.z() - state().ground) / model().camera(i).fx);
+    std::nth_element(pixels.begin(),
+                     pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2), pixels.end());
+    const double scale = pixel_m / std::max(1e-12, pixels[pixels.size() / 2]);
+    transform(model(), scale, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+    state().ground *= scale;
+  }
+
+  /// Scale and heading of a similarity fit to n points of sigma s: s / sqrt(sum d^2), d their
+  /// distances from their mean.
+  void say_uncertainty() {
+    double information = 0.0;
+    const auto add = [&](const std::vector<Eigen::Vector2d>& points,
+                         const std::vector<double>& sigmas) {
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+      for (const Eigen::Vector2d& p : points) mean += p / static_cast<double>(points.size());
+      for (std::size_t k = 0; k < points.size(); ++k)
+        information += (points[k] - mean).squaredNorm() / (sigmas[k] * sigmas[k]);
+    };
+    std::vector<Eigen::Vector2d> points;
+    std::vector<double> sigmas;
+    if (result_.scale_source == ScaleSource::kControlPoints) {
+      for (std::size_t i = 0; i < set_.control_points.size(); ++i)
+        if (state().control_known[i] != 0) {
+          points.emplace_back(state().control[i].x(), state().control[i].y());
+          sigmas.push_back(std::max(1e-3, set_.control_points[i].horizontal_sigma_m));
+        }
+    } else if (result_.scale_source == ScaleSource::kPositions) {
+      for (const std::size_t i : result_.components.front())
+        if (set_.photos[i].prior.position) {
+          points.emplace_back(model().poses[i].centre.x(), model().poses[i].centre.y());
+          sigmas.push_back(set_.photos[i].prior.horizontal_sigma_m.value_or(options_.gps_sigma_m));
+        }
+    } else if (result_.scale_source == ScaleSource::kRelativeAltitude) {
+      result_.scale_sigma =
+          options_.relative_altitude_sigma_m / median_height(model(), state().ground);
+      return;
+    }
+    if (points.size() < 2) return;
+    add(points, sigmas);
+    result_.scale_sigma = result_.heading_sigma_rad = 1.0 / std::sqrt(std::max(1e-12, information));
+  }
+
+  const PhotoSet& set_;
+  const std::vector<PhotoFeatures>& features_;
+  const std::vector<VerifiedPair>& pairs_;
+  const AerialMappingOptions& options_;
+  Reconstruction result_;
+  Placement placement_;
+  AdjustmentPlan plan_;
+  bool levelled_ = false;
+};
+
+}  // namespace
+
+Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                  const std::vector<VerifiedPair>& pairs, int min_inliers) {
+  Model model;
+  for (const CameraPrior& prior : set.cameras) {
+    CameraModel camera;
+    camera.width = prior.width;
+    camera.height = prior.height;
+    const double assumed = 0.85 * std::max(prior.width, prior.height);
+    camera.fx = camera.fy = prior.focal.focal_px > 0.0 ? prior.focal.focal_px : assumed;
+    camera.cx = (prior.width - 1) / 2.0;
+    camera.cy = (prior.height - 1) / 2.0;
+    model.cameras.push_back(camera);
+  }
+  for (const MappingPhoto& photo : set.photos) model.camera_of.push_back(photo.camera);
+  model.poses.resize(set.photos.size());
+  std::vector<VerifiedPair> links;
+  for (const VerifiedPair& pair : pairs)
+    if (pair.support() >= min_inliers) links.push_back(pair);
+  for (Track& track : build_tracks(features, links)) {
+    Landmark landmark;
+    landmark.used.assign(track.size(), 0);
+    landmark.track = std::move(track);
+    model.landmarks.push_back(std::move(landmark));
+  }
+  return model;
+}
+
+Reconstruction reconstruct(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                           const std::vector<VerifiedPair>& pairs,
+                           const AerialMappingOptions& options) {
+  return Reconstructor(set, features, pairs, options).from_matches();
+}
+
+Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                                 const std::vector<VerifiedPair>& pairs,
+                                 const AerialMappingOptions& options) {
+  return Reconstructor(set, features, pairs, options).from_given_poses();
+}
+
+}  // namespace nadir::aerial

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nadir/aerial_mapping/aerial_map.hpp"
+#include "nadir/aerial_mapping/options.hpp"
+#include "nadir/aerial_mapping/photo_set.hpp"
+#include "nadir/aerial_mapping/sfm/adjustment.hpp"
+#include "nadir/aerial_mapping/sfm/matching.hpp"
+#include "nadir/aerial_mapping/sfm/model.hpp"
+
+namespace nadir::aerial {
+
+/// Poses and points of the largest group of photos, and what can be said about them.
+struct Reconstruction {
+  Model model;
+  AdjustmentState state;
+  std::vector<std::vector<std::size_t>> components;  ///< the first is the one that is mapped
+  ScaleSource scale_source = ScaleSource::kNone;
+  double scale_sigma = 0.0;
+  double heading_sigma_rad = 0.0;
+  std::vector<double> focal_sigma;  ///< of ln f, a camera
+  std::vector<std::string> warnings;
+};
+
+/// Cameras by their priors, no poses, tracks of the group's photos.
+Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                  const std::vector<VerifiedPair>& pairs, int min_inliers);
+
+/// Finds the poses of the photos from their matches and priors.
+Reconstruction reconstruct(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                           const std::vector<VerifiedPair>& pairs,
+                           const AerialMappingOptions& options);
+
+/// Takes the poses that the photos bring along and triangulates their tracks; adjusts them where
+/// the options say so.
+Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                                 const std::vector<VerifiedPair>& pairs,
+                                 const AerialMappingOptions& options);
+
+}  // namespace nadir::aerial
