@@ -42,9 +42,10 @@ SeedRun run_way(const Way& way, const Orthomosaic& map, const Sequence& sequence
   const Prior start = start_of({"truth", "5,5"}, *sequence.truth, seed);
   Progress progress(std::string("localizing, ") + way.name,
                     static_cast<int>(sequence.local_maps.size()), invocation.common);
-  std::optional<SeedRun> run = run_and_judge({map, sequence, sequence.local_maps, options.values(),
-                                              start, seed, sequence.odometry.has_value()},
-                                             [&](int done) { progress.update(done); });
+  std::optional<SeedRun> run =
+      run_and_judge({map, std::nullopt, sequence, sequence.local_maps, options.values(), start,
+                     seed, sequence.odometry.has_value()},
+                    [&](int done) { progress.update(done); });
   stop_if_interrupted();
   write_run(folder, run->result);
   draw_run(folder, {map, run->result, run->truth, &run->judgement->evaluation, way.name});

@@ -20,6 +20,10 @@ void add_inputs(CLI::App& verb, LocalizeOptions& options) {
   verb.add_option("-o,--output", options.run, "Run folder to write")->type_name("RUN")->required();
   verb.add_option("--map", options.map, "Orthomosaic to use instead of the site's")
       ->type_name("FILE");
+  verb.add_option("--surface", options.surface,
+                  "Heights of the map, to compare with those of the local maps (default: the "
+                  "site's, where its own map is used)")
+      ->type_name("FILE");
   verb.add_option("--frames", options.frames,
                   "Frames A:B, both included (default: all; with --prior truth, from the first "
                   "that has a true pose)")
@@ -54,6 +58,7 @@ void add_localize(CLI::App& program, Invocation& invocation) {
   add_start(*verb, options);
   add_option_sources(*verb, options.sources);
   add_option_flag(*verb, options.sources, "--score", "map_matching.score");
+  add_option_flag(*verb, options.sources, "--layers", "map_matching.layers");
   add_option_flag(*verb, options.sources, "--particles", "localization.particles");
   add_writing_options(*verb, invocation.common);
   add_computing_options(*verb, invocation.common);

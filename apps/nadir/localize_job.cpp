@@ -11,6 +11,7 @@
 #include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "particle_log.hpp"
 #include "progress.hpp"
@@ -46,6 +47,8 @@ LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invoc
       sequence_(read_sequence(options.site)),
       frames_(frames_of(options, sequence_, invocation.common.quiet)),
       map_file_(map_path(sequence_, options.map)),
+      surface_file_(surface_path(sequence_, options.map, options.surface,
+                                 effective_.values().matching.layers)),
       use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
   effective_.use_device(invocation.common.device);
   if (use_odometry_file_) note_coverage(*sequence_.odometry, frames_, invocation.common.quiet);
@@ -56,6 +59,7 @@ LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invoc
 std::vector<std::filesystem::path> LocalizeJob::inputs() const {
   std::vector<std::filesystem::path> inputs{options_.site};
   if (!options_.map.empty()) inputs.push_back(options_.map);
+  if (!options_.surface.empty()) inputs.push_back(options_.surface);
   return inputs;
 }
 
@@ -63,6 +67,7 @@ int LocalizeJob::explain() const {
   const Json plan{{"dry_run", true},
                   {"site", options_.site.string()},
                   {"map", map_file_.string()},
+                  {"surface", surface_file_ ? Json(surface_file_->string()) : Json(nullptr)},
                   {"frames", frames_.size()},
                   {"odometry", use_odometry_file_ ? "file" : "maps"},
                   {"seeds", options_.seeds},
@@ -81,6 +86,8 @@ int LocalizeJob::explain() const {
 std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
                                             const std::filesystem::path& folder) {
   const int per_seed = static_cast<int>(frames_.size());
+  std::optional<ElevationMap> surface;
+  if (surface_file_) surface = read_elevation_map(*surface_file_);
   Progress progress("localizing", per_seed * options_.seeds, invocation_.common);
   std::vector<SeedRun> runs;
   for (int k = 0; k < options_.seeds && !interrupted(); ++k) {
@@ -90,8 +97,8 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
         options_.seeds == 1 ? folder : folder / seed_folder(seed);
     create_folder(run_folder);
     ParticleKeeper particles(run_folder);
-    const RunPlan plan{map,  sequence_,          frames_,     effective_.values(), start,
-                       seed, use_odometry_file_, {&particles}};
+    const RunPlan plan{map,   surface, sequence_,          frames_,     effective_.values(),
+                       start, seed,    use_odometry_file_, {&particles}};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
@@ -116,6 +123,7 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
   }
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
   manifest.sources = {{"site", options_.site}, {"map", map_file_}};
+  if (surface_file_) manifest.sources.emplace_back("surface", *surface_file_);
   const bool partial = interrupted();
   manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
   write_manifest(folder, manifest, effective_.table(), effective_.origins());

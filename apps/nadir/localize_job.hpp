@@ -15,6 +15,7 @@ struct LocalizeOptions {
   std::filesystem::path site;
   std::filesystem::path run;
   std::filesystem::path map;
+  std::filesystem::path surface;
   std::string frames;
   std::string odometry = "auto";
   PriorOptions start;
@@ -48,6 +49,7 @@ class LocalizeJob {
   Sequence sequence_;
   std::vector<Sequence::LocalMap> frames_;
   std::filesystem::path map_file_;
+  std::optional<std::filesystem::path> surface_file_;
   bool use_odometry_file_;
   std::vector<std::string> figures_;
 };

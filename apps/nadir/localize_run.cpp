@@ -65,7 +65,7 @@ double RunResult::decode_s() const { return sum_over(records, &FrameRecord::deco
 RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& progress) {
   RunResult result;
   const Stopwatch preparing;
-  Localizer localizer(plan.map, plan.options, plan.seed);
+  Localizer localizer(plan.map, plan.surface, plan.options, plan.seed);
   localizer.start_near(plan.start.pose, plan.start.spread);
   result.prepare_s = preparing.seconds();
   for (std::size_t i = 0; i < plan.frames.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "nadir/io/sequence.hpp"
@@ -36,6 +37,7 @@ class RunObserver {
 /// What to run.
 struct RunPlan {
   const Orthomosaic& map;
+  const std::optional<ElevationMap>& surface;
   const Sequence& sequence;
   const std::vector<Sequence::LocalMap>& frames;
   const LocalizerOptions& options;

@@ -21,6 +21,18 @@ std::filesystem::path map_path(const Sequence& sequence, const std::filesystem::
               "give one with --map FILE");
 }
 
+std::optional<std::filesystem::path> surface_path(const Sequence& sequence,
+                                                  const std::filesystem::path& map,
+                                                  const std::filesystem::path& surface,
+                                                  Layers layers) {
+  if (layers == Layers::kColour) return std::nullopt;
+  if (!surface.empty()) return surface;
+  if (map.empty() && sequence.surface) return sequence.surface;
+  if (layers == Layers::kBoth) return std::nullopt;
+  throw Error(ErrorKind::kUsage, "heights alone are to be compared, but the map has no surface",
+              sequence.folder.string(), "give one with --surface FILE");
+}
+
 std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp) {
   if (!sequence.truth) return std::nullopt;
   const auto found = std::ranges::find_if(*sequence.truth, [&](const auto& stamped) {

@@ -9,12 +9,20 @@
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/trajectory.hpp"
 #include "nadir/io/sequence.hpp"
+#include "nadir/map_matching/options.hpp"
 
 namespace nadir::cli {
 
 /// The map to use: `map` if it was given, else the site's. Throws Error (usage) where there is
 /// none.
 std::filesystem::path map_path(const Sequence& sequence, const std::filesystem::path& map);
+
+/// The surface to compare heights with: `surface` if it was given, else the site's, which belongs
+/// to the site's own map; nothing where another `map` is used or heights are not compared.
+std::optional<std::filesystem::path> surface_path(const Sequence& sequence,
+                                                  const std::filesystem::path& map,
+                                                  const std::filesystem::path& surface,
+                                                  Layers layers);
 
 /// The true pose at a stamp, within 0.01 s.
 std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp);

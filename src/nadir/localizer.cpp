@@ -10,9 +10,11 @@
 namespace nadir {
 namespace {
 
+constexpr PoseScore kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
+
 /// The best particle of a frame: NaN where none could be compared.
 PoseScore best_of(const std::vector<PoseScore>& scores) {
-  PoseScore best{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  PoseScore best = kNothing;
   for (const PoseScore& score : scores) {
     if (!(score.score <= best.score) && !std::isnan(score.score)) best = score;
   }
@@ -26,15 +28,19 @@ PoseCovariance map_error(const LocalizationOptions& options) {
   return Eigen::Vector3d(position, position, yaw).asDiagonal();
 }
 
-/// Why the frame said nothing: most of the cloud lies where too little can be compared, or what can
-/// be compared has no contrast.
-EstimateStatus why_not(const std::vector<PoseScore>& scores, const ParticleSet& particles,
-                       double min_valid_weight) {
-  double overlapping = 0.0;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (scores[i].valid_weight >= min_valid_weight) overlapping += particles.weights[i];
+void check(const LocalizerOptions& options, bool has_surface) {
+  const Score score = options.matching.score;
+  if (options.localization.likelihood == Likelihood::kLinear &&
+      (score == Score::kSsd || score == Score::kSad)) {
+    throw Error(
+        ErrorKind::kUsage,
+        "the score " + to_string(score) + " is never positive and cannot be a weight itself", {},
+        "set localization.likelihood to tempered or take another score");
   }
-  return overlapping >= 0.5 ? EstimateStatus::kNoTexture : EstimateStatus::kNoOverlap;
+  if (options.matching.layers == Layers::kHeight && !has_surface) {
+    throw Error(ErrorKind::kUsage, "heights alone are to be compared, but the map has no surface",
+                "map_matching.layers", "give a surface or set it to colour");
+  }
 }
 
 void check(const Frame& frame, const std::optional<Frame>& previous) {
@@ -70,6 +76,7 @@ LocalizerOptions LocalizerOptions::paper() {
   LocalizerOptions options;
   options.matching.score = Score::kWncc;
   options.matching.channel = Channel::kGrey;
+  options.matching.layers = Layers::kColour;
   options.localization = LocalizationOptions::paper();
   return options;
 }
@@ -83,15 +90,15 @@ OptionTable option_table(LocalizerOptions& options) {
 }
 
 Localizer::Localizer(const Orthomosaic& map, const LocalizerOptions& options, std::uint64_t seed)
-    : options_(options), map_(map, options.matching), filter_(options.localization, seed) {
-  const Score score = options.matching.score;
-  if (options.localization.likelihood == Likelihood::kLinear &&
-      (score == Score::kSsd || score == Score::kSad)) {
-    throw Error(
-        ErrorKind::kUsage,
-        "the score " + to_string(score) + " is never positive and cannot be a weight itself", {},
-        "set localization.likelihood to tempered or take another score");
-  }
+    : Localizer(map, std::nullopt, options, seed) {}
+
+Localizer::Localizer(const Orthomosaic& map, const std::optional<ElevationMap>& surface,
+                     const LocalizerOptions& options, std::uint64_t seed)
+    : options_(options), filter_(options.localization, seed) {
+  check(options, surface.has_value());
+  const Layers layers = options.matching.layers;
+  if (layers != Layers::kHeight) map_.emplace(map, options.matching);
+  if (surface && layers != Layers::kColour) surface_.emplace(*surface, options.matching);
 }
 
 void Localizer::start_near(const Pose2& prior, const Spread& spread) {
@@ -115,15 +122,11 @@ Estimate Localizer::update(const Frame& frame) {
   if (motion) last_motion_ = *motion;
   if (!motion) estimate.status = EstimateStatus::kNoOdometry;
 
-  const Template local = make_template(frame.local, options_.matching);
-  const std::vector<PoseScore> scores = score_poses(map_, local, filter_.particles().poses);
-  std::vector<double> values;
-  for (const PoseScore& score : scores) values.push_back(score.score);
-  weighed_ = filter_.weigh(values);
-  if (!weighed_)
-    estimate.status = why_not(scores, filter_.particles(), options_.matching.min_valid_weight);
+  const std::vector<Look> looks = look(frame);
+  weighed_ = weigh(looks);
+  if (!weighed_) estimate.status = why_not(looks);
 
-  const PoseScore best = best_of(scores);
+  const PoseScore best = looks.empty() ? kNothing : best_of(looks.front().scores);
   estimate.best_score = best.score;
   estimate.valid_weight = best.valid_weight;
   estimate.effective_particles = filter_.effective_particles();
@@ -134,6 +137,44 @@ Estimate Localizer::update(const Frame& frame) {
   estimate.clusters = static_cast<int>(clusters.size());
   previous_ = frame;
   return estimate;
+}
+
+std::vector<Localizer::Look> Localizer::look(const Frame& frame) const {
+  const LocalizationOptions& options = options_.localization;
+  const std::vector<Pose2>& poses = filter_.particles().poses;
+  std::vector<Look> looks;
+  if (map_) {
+    const Template local = make_template(frame.local, options_.matching);
+    looks.push_back({score_poses(*map_, local, poses), options.temper});
+  }
+  if (surface_ && frame.elevation) {
+    const Template local = make_template(*frame.elevation, options_.matching);
+    looks.push_back({score_poses(*surface_, local, poses), options.height_temper});
+  }
+  return looks;
+}
+
+bool Localizer::weigh(const std::vector<Look>& looks) {
+  std::vector<Evidence> evidence;
+  for (const Look& look : looks) {
+    evidence.push_back({{}, look.temper});
+    for (const PoseScore& score : look.scores) evidence.back().scores.push_back(score.score);
+  }
+  return filter_.weigh(evidence);
+}
+
+EstimateStatus Localizer::why_not(const std::vector<Look>& looks) const {
+  const std::vector<double>& weights = filter_.particles().weights;
+  for (const Look& look : looks) {
+    double overlapping = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (look.scores[i].valid_weight >= options_.matching.min_valid_weight) {
+        overlapping += weights[i];
+      }
+    }
+    if (overlapping < 0.5) return EstimateStatus::kNoOverlap;
+  }
+  return EstimateStatus::kNoTexture;
 }
 
 std::optional<Motion2> Localizer::motion_since_previous(const Frame& frame) const {

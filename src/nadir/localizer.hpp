@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "nadir/core/elevation_map.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/localization/particle_filter.hpp"
 #include "nadir/map_matching/matching.hpp"
@@ -42,15 +44,22 @@ struct Estimate {
   double cluster_mass = 1.0;  ///< share of the weight in that cluster
   int clusters = 1;
   double effective_particles = 0;  ///< before resampling
-  double best_score = 0.0;         ///< of the particles; NaN where nothing was scored
-  double valid_weight = 0.0;       ///< of the best particle
-  bool resampled = false;          ///< before this frame's prediction
+  /// Of the particles, by colour, or by heights where those alone are compared; NaN where nothing
+  /// was scored.
+  double best_score = 0.0;
+  double valid_weight = 0.0;  ///< of the best particle
+  bool resampled = false;     ///< before this frame's prediction
 };
 
 /// The whole of nadir in one class: odometry and local maps in, poses in the map out.
 class Localizer {
  public:
   Localizer(const Orthomosaic& map, const LocalizerOptions& options, std::uint64_t seed = 0);
+  /// With the surface of the map, where there is one: then the heights of frames that have them are
+  /// compared too, as `map_matching.layers` says. Throws Error (usage) where heights alone are to
+  /// be compared and there is no surface.
+  Localizer(const Orthomosaic& map, const std::optional<ElevationMap>& surface,
+            const LocalizerOptions& options, std::uint64_t seed = 0);
 
   /// Starts the filter with particles uniform in a square and a range of headings around `prior`.
   void start_near(const Pose2& prior, const Spread& spread);
@@ -63,11 +72,22 @@ class Localizer {
   const ParticleSet& particles() const { return filter_.particles(); }
 
  private:
+  /// One way of comparing a frame: by colour or by heights.
+  struct Look {
+    std::vector<PoseScore> scores;  ///< of every particle
+    double temper = 0.0;
+  };
+  std::vector<Look> look(const Frame& frame) const;
+  bool weigh(const std::vector<Look>& looks);
+  /// Why the frame said nothing: most of the cloud lies where too little can be compared, or what
+  /// can be compared has no contrast.
+  EstimateStatus why_not(const std::vector<Look>& looks) const;
   /// From the odometry where both frames have it, else by registering the local maps.
   std::optional<Motion2> motion_since_previous(const Frame& frame) const;
 
   LocalizerOptions options_;
-  MapIndex map_;
+  std::optional<MapIndex> map_;      ///< absent where heights alone are compared
+  std::optional<MapIndex> surface_;  ///< absent where colour alone is
   ParticleFilter filter_;
   std::optional<Frame> previous_;
   bool weighed_ = false;  ///< the last frame changed the weights

@@ -42,6 +42,9 @@ void declare(OptionTable& table, LocalizationOptions& options) {
                            "itself, as the paper has it.");
   table.number(stage + "temper", options.temper, {0.0, 1e4},
                "Sharpness of the likelihood: log-likelihood = temper * score.", measured);
+  table.number(stage + "height_temper", options.height_temper, {0.0, 1e4},
+               "The same for the score of the heights: log-likelihoods of colour and heights add "
+               "up.");
   table.number(stage + "min_effective_share", options.min_effective_share, {0.0, 1.0},
                "Least share of effective particles that one frame may leave: the temper is lowered "
                "for the frame where it would leave fewer, so that a wide cloud is not decided by "

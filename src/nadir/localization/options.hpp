@@ -27,6 +27,7 @@ struct LocalizationOptions {
   int start_particles = 20000;
   Likelihood likelihood = Likelihood::kTempered;
   double temper = 50.0;
+  double height_temper = 20.0;
   double min_effective_share = 0.0;
   Resampling resampling = Resampling::kSystematic;
   double resample_below = 0.5;

@@ -106,36 +106,58 @@ void ParticleFilter::predict(const Motion2& motion) {
   }
 }
 
-bool ParticleFilter::weigh(std::span<const double> scores) {
+std::optional<std::vector<double>> ParticleFilter::filled_scores(
+    std::span<const double> scores) const {
   const auto [lowest, weight] = defined_scores(scores, particles_.weights);
-  if (weight <= 0.0 || (weighed_ && weight < kMinComparedWeight)) return false;
+  if (weight <= 0.0 || (weighed_ && weight < kMinComparedWeight)) return std::nullopt;
   // A pose that could not be compared is no better than the worst that could.
-  std::vector<double> defined(scores.begin(), scores.end());
+  std::vector<double> filled(scores.begin(), scores.end());
   std::replace_if(
-      defined.begin(), defined.end(), [](double s) { return std::isnan(s); }, lowest);
+      filled.begin(), filled.end(), [](double s) { return std::isnan(s); }, lowest);
+  return filled;
+}
 
-  std::optional<std::vector<double>> weights;
-  if (options_.likelihood == Likelihood::kLinear) {
-    for (double& score : defined) score = std::log(std::max(score, 0.0));
-    weights = reweighed(particles_.weights, defined, 1.0);
-  } else {
-    weights = reweighed(particles_.weights, defined, bounded_temper(defined));
-  }
+bool ParticleFilter::apply(std::span<const double> log_gain, double temper) {
+  const bool linear = options_.likelihood == Likelihood::kLinear;
+  auto weights =
+      reweighed(particles_.weights, log_gain, linear ? temper : bounded_temper(log_gain, temper));
   if (!weights) return false;
   particles_.weights = std::move(*weights);
   weighed_ = true;
   return true;
 }
 
-double ParticleFilter::bounded_temper(std::span<const double> scores) const {
+bool ParticleFilter::weigh(std::span<const double> scores) {
+  const Evidence evidence{{scores.begin(), scores.end()}, options_.temper};
+  return weigh(std::span(&evidence, 1));
+}
+
+bool ParticleFilter::weigh(std::span<const Evidence> evidence) {
+  const bool linear = options_.likelihood == Likelihood::kLinear;
+  const bool alone = evidence.size() == 1;
+  std::vector<double> log_gain(particles_.size(), 0.0);
+  bool any = false;
+  for (const auto& [scores, temper] : evidence) {
+    const std::optional<std::vector<double>> filled = filled_scores(scores);
+    if (!filled) continue;
+    any = true;
+    for (std::size_t i = 0; i < log_gain.size(); ++i) {
+      const double score = (*filled)[i];
+      log_gain[i] += linear ? std::log(std::max(score, 0.0)) : (alone ? 1.0 : temper) * score;
+    }
+  }
+  return any && apply(log_gain, alone && !linear ? evidence.front().temper : 1.0);
+}
+
+double ParticleFilter::bounded_temper(std::span<const double> log_gain, double temper) const {
   const double smallest = options_.min_effective_share * static_cast<double>(particles_.size());
-  const auto effective = [&](double temper) {
-    const auto weights = reweighed(particles_.weights, scores, temper);
+  const auto effective = [&](double tried) {
+    const auto weights = reweighed(particles_.weights, log_gain, tried);
     return weights ? effective_sample_size(*weights) : 0.0;
   };
-  if (effective(options_.temper) >= smallest) return options_.temper;
+  if (effective(temper) >= smallest) return temper;
   double low = 0.0;
-  double high = options_.temper;
+  double high = temper;
   for (int i = 0; i < kTemperBisections; ++i) {
     const double middle = 0.5 * (low + high);
     (effective(middle) >= smallest ? low : high) = middle;

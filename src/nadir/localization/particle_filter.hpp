@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,13 @@ namespace nadir {
 struct Spread {
   double position_m = 5.0;
   double yaw_rad = radians(5.0);
+};
+
+/// What one way of looking says of every particle: its score, NaN = could not be compared, and how
+/// sharp a likelihood that score is.
+struct Evidence {
+  std::vector<double> scores;
+  double temper = 0.0;
 };
 
 /// A particle filter over SE(2). Random numbers are a pure function of (seed, step, particle).
@@ -37,6 +45,9 @@ class ParticleFilter {
   /// the many beyond it by being the only ones that were asked. The cloud of the start may well
   /// lie beyond the rim for the most part.
   bool weigh(std::span<const double> scores);
+  /// The same from several independent ways of looking: their log-likelihoods add up. One that
+  /// could compare too few poses is left out; returns false where none is left.
+  bool weigh(std::span<const Evidence> evidence);
   /// Resamples where the effective sample size has fallen; returns whether it did.
   bool resample_if_needed();
 
@@ -57,8 +68,12 @@ class ParticleFilter {
     kCount
   };
   RandomStream stream(Purpose purpose) const;
+  /// The scores, the lowest in place of those that are undefined; nothing where too few are.
+  std::optional<std::vector<double>> filled_scores(std::span<const double> scores) const;
+  /// Multiplies the weights by exp(temper * log_gain); false where all would vanish.
+  bool apply(std::span<const double> log_gain, double temper);
   /// The temper, lowered where it would leave fewer effective particles than allowed.
-  double bounded_temper(std::span<const double> scores) const;
+  double bounded_temper(std::span<const double> log_gain, double temper) const;
   void resample(std::size_t count, Purpose purpose);
   void roughen();
 

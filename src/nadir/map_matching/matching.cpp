@@ -6,6 +6,7 @@
 
 #include "nadir/core/error.hpp"
 #include "nadir/map_matching/channel.hpp"
+#include "nadir/map_matching/height_channel.hpp"
 #include "nadir/map_matching/peaks.hpp"
 #include "nadir/map_matching/surface.hpp"
 
@@ -60,6 +61,14 @@ void check(const SearchRegion& region, double step) {
   }
 }
 
+Template as_template(ChannelImage channel) {
+  Template result{std::move(channel)};
+  const auto& valid = result.channel.valid.values();
+  const auto seen = std::count_if(valid.begin(), valid.end(), [](auto v) { return v != 0; });
+  result.valid_share = static_cast<double>(seen) / static_cast<double>(valid.size());
+  return result;
+}
+
 /// Why nothing was scored: too little overlap everywhere, or too little contrast.
 MatchStatus failure(const ScoreVolume& volume, double min_valid_weight) {
   for (const Raster<float>& surface : volume.valid_weight) {
@@ -99,7 +108,14 @@ std::string to_string(MatchStatus status) {
 }
 
 MapIndex::MapIndex(const Orthomosaic& map, const MatchingOptions& options)
-    : options_(options), channel_(make_channel(map, options, "the map")) {
+    : MapIndex(options, make_channel(map, options, "the map")) {}
+
+MapIndex::MapIndex(const ElevationMap& surface, const MatchingOptions& options)
+    : MapIndex(options.for_heights(),
+               make_height_channel(surface, options, "the surface of the map")) {}
+
+MapIndex::MapIndex(const MatchingOptions& options, ChannelImage channel)
+    : options_(options), channel_(std::move(channel)) {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < channel_.value.values().size(); ++i) {
@@ -116,11 +132,11 @@ MapIndex::MapIndex(const Orthomosaic& map, const MatchingOptions& options)
 }
 
 Template make_template(const Orthomosaic& local, const MatchingOptions& options) {
-  Template result{make_channel(local, options, "the local map")};
-  const auto& valid = result.channel.valid.values();
-  const auto seen = std::count_if(valid.begin(), valid.end(), [](auto v) { return v != 0; });
-  result.valid_share = static_cast<double>(seen) / static_cast<double>(valid.size());
-  return result;
+  return as_template(make_channel(local, options, "the local map"));
+}
+
+Template make_template(const ElevationMap& local, const MatchingOptions& options) {
+  return as_template(make_height_channel(local, options, "the local heights"));
 }
 
 MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nadir/core/elevation_map.hpp"
 #include "nadir/core/frames.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/score_volume.hpp"
@@ -34,6 +35,9 @@ class MapIndex {
   /// Throws Error (input) for an empty map, one without a valid pixel, or one whose image and mask
   /// differ in size.
   MapIndex(const Orthomosaic& map, const MatchingOptions& options);
+  /// Heights instead of colours, compared by `options.for_heights()`. Throws Error (input) for an
+  /// empty surface or one without a known height.
+  MapIndex(const ElevationMap& surface, const MatchingOptions& options);
 
   const ChannelImage& channel() const { return channel_; }
   const MatchingOptions& options() const { return options_; }
@@ -42,6 +46,8 @@ class MapIndex {
   PreparedMap* prepared() const { return prepared_.get(); }  ///< the backend's; may be null
 
  private:
+  MapIndex(const MatchingOptions& options, ChannelImage channel);
+
   MatchingOptions options_;
   ChannelImage channel_;
   double mean_grey_ = 0.0;
@@ -59,6 +65,8 @@ struct Template {
 /// Prepares a local map for `map`. Throws Error (input) where image and mask differ in size or the
 /// image is empty.
 Template make_template(const Orthomosaic& local, const MatchingOptions& options);
+/// Prepares local heights for a map of heights. Throws Error (input) for an empty raster.
+Template make_template(const ElevationMap& local, const MatchingOptions& options);
 
 /// Where to look for the robot. Default: the whole map at one heading.
 struct SearchRegion {

@@ -14,8 +14,18 @@ Channel MatchingOptions::effective_channel() const {
   return score == Score::kZncc || score == Score::kZwncc ? Channel::kHighPass : Channel::kGrey;
 }
 
+MatchingOptions MatchingOptions::for_heights() const {
+  MatchingOptions options = *this;
+  options.score = Score::kZwncc;
+  return options;
+}
+
 void declare(OptionTable& table, MatchingOptions& options) {
   const std::string stage = "map_matching.";
+  table.choice<Layers>(stage + "layers", options.layers, kLayersNames,
+                       "What is compared: colour, heights, or both where map and frames have "
+                       "heights.",
+                       "Kaeslin et al., 2016; docs/height.md");
   table.choice<Score>(stage + "score", options.score, kScoreNames,
                       "How the alikeness of two patches is measured.",
                       "docs/scores.md; measured on the Aero-Ground run");
@@ -39,6 +49,12 @@ void declare(OptionTable& table, MatchingOptions& options) {
   table.number(stage + "high_pass_sigma_m", options.high_pass_sigma_m, {0.1, 50.0},
                "Standard deviation of the Gaussian mean that the high-pass subtracts, metres.",
                "measured on the Aero-Ground run");
+  table.number(stage + "height_sigma_m", options.height_sigma_m, {0.5, 50.0},
+               "Standard deviation of the surroundings whose ground is the zero of heights, "
+               "metres.");
+  table.number(stage + "height_scale_m", options.height_scale_m, {0.01, 100.0},
+               "Height above the ground that is half as good as any: lower things are compared by "
+               "their height, higher ones by being there, metres.");
   table.number(stage + "min_valid_weight", options.min_valid_weight, {0.01, 1.0},
                "Smallest share of the local map's weight that must lie on valid map pixels.");
   table.number(stage + "yaw_step_deg", options.yaw_step_deg, {0.01, 90.0},

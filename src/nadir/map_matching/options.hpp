@@ -49,7 +49,17 @@ enum class Backend { kCpu, kCuda, kReference };
 inline constexpr std::array<std::pair<Backend, const char*>, 3> kBackendNames{
     {{Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}, {Backend::kReference, "reference"}}};
 
+/// Which of a site's layers are compared.
+enum class Layers {
+  kBoth,    ///< colour, and heights where map and frame have them
+  kColour,  ///< the orthomosaics alone
+  kHeight,  ///< the heights alone
+};
+inline constexpr std::array<std::pair<Layers, const char*>, 3> kLayersNames{
+    {{Layers::kBoth, "both"}, {Layers::kColour, "colour"}, {Layers::kHeight, "height"}}};
+
 struct MatchingOptions {
+  Layers layers = Layers::kBoth;
   Score score = Score::kZwncc;
   Channel channel = Channel::kAuto;
   HoleTreatment holes = HoleTreatment::kMasked;
@@ -57,6 +67,8 @@ struct MatchingOptions {
   Backend backend = Backend::kCpu;
   double resolution_m = 0.10;
   double high_pass_sigma_m = 1.5;
+  double height_sigma_m = 3.0;
+  double height_scale_m = 0.25;
   double min_valid_weight = 0.6;
   double yaw_step_deg = 1.0;
   int candidates = 10;
@@ -65,6 +77,9 @@ struct MatchingOptions {
 
   /// The channel that is compared: `kAuto` is the high-pass for the zero-mean scores, grey else.
   Channel effective_channel() const;
+  /// The options by which heights are compared: as these, but for the score, which is zwncc, since
+  /// only the zero-mean scores do without a common datum.
+  MatchingOptions for_heights() const;
 };
 
 void declare(OptionTable& table, MatchingOptions& options);
