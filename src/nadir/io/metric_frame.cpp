@@ -90,17 +90,14 @@ MetricFrame MetricFrame::around(const std::vector<GeodeticPosition>& positions) 
     throw Error(ErrorKind::kUsage,
                 fmt::format("the photos lie at latitude {:.3f}, where UTM has no zone",
                             middle.latitude_deg),
-                {}, "give --metres-per-pixel for a map in local metres");
+                {}, "remove the positions and give --metres-per-pixel for a map in local metres");
   }
   const bool south = middle.latitude_deg < 0.0;
   const int zone =
       std::clamp(static_cast<int>(std::floor((middle.longitude_deg + 180.0) / 6.0)) + 1, 1, 60);
   const int epsg = (south ? 32700 : 32600) + zone;
-  MetricFrame frame(epsg,
-                    fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north"));
-  const Eigen::Vector3d centre = frame.to_map(middle).vector();
-  frame.anchor_ = centre.head<2>().array().floor();
-  return frame;
+  return MetricFrame(
+      epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north"));
 }
 
 Point3<frames::Map> MetricFrame::to_map(const GeodeticPosition& position) const {
@@ -113,13 +110,13 @@ Point3<frames::Map> MetricFrame::to_map(const GeodeticPosition& position) const 
                             position.longitude_deg, name_),
                 {}, "correct it or leave the photo out");
   }
-  return {x - anchor_.x(), y - anchor_.y(), position.altitude_m};
+  return {x, y, position.altitude_m};
 }
 
 GeodeticPosition MetricFrame::to_geodetic(const Point3<frames::Map>& point) const {
   const GdalErrors errors;
-  double x = point.x + anchor_.x();
-  double y = point.y + anchor_.y();
+  double x = point.x;
+  double y = point.y;
   transforms_->to_geodetic->Transform(1, &x, &y);
   GeodeticPosition position;
   position.latitude_deg = y;

@@ -12,13 +12,13 @@
 
 namespace nadir {
 
-/// A metric map frame on the Earth: one UTM zone, minus a whole number of metres so that the
-/// numbers stay small. x = grid east, y = grid north, z = the altitude as it was given.
+/// A metric map frame on the Earth: one UTM zone. x = grid east, y = grid north, z = the altitude
+/// as it was given.
 class MetricFrame {
  public:
-  /// The UTM zone (EPSG:326NN, 327NN) of the median position; the anchor is that position, cut to
-  /// metres. One zone holds for all positions, on whichever side of its border they lie. Throws
-  /// Error (usage) for no positions, and beyond 84 degrees north or 80 south, where UTM ends.
+  /// The UTM zone (EPSG:326NN, 327NN) of the median position. One zone holds for all positions, on
+  /// whichever side of its border they lie. Throws Error (usage) for no positions, and beyond 84
+  /// degrees north or 80 south, where UTM ends.
   static MetricFrame around(const std::vector<GeodeticPosition>& positions);
 
   MetricFrame(MetricFrame&&) noexcept;
@@ -29,8 +29,6 @@ class MetricFrame {
 
   const std::string& crs() const { return crs_; }    ///< WKT
   const std::string& name() const { return name_; }  ///< "EPSG:32615 (UTM zone 15 north)"
-  /// What is added to frame coordinates to get those of the reference system.
-  const Eigen::Vector2d& anchor() const { return anchor_; }
 
   Point3<frames::Map> to_map(const GeodeticPosition& position) const;
   GeodeticPosition to_geodetic(const Point3<frames::Map>& point) const;
@@ -45,7 +43,6 @@ class MetricFrame {
 
   std::string crs_;
   std::string name_;
-  Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();
   std::unique_ptr<Transforms> transforms_;
 };
 

@@ -29,13 +29,9 @@ cv::Mat view_of(Raster<std::uint8_t>& image) {
 }
 
 Raster<std::uint8_t> reduced(Raster<std::uint8_t> image, int max_image_px) {
-  const int longer = std::max(image.width(), image.height());
-  if (max_image_px <= 0 || longer <= max_image_px) return image;
-  const double scale = static_cast<double>(max_image_px) / longer;
-  const auto side = [&](int size) {
-    return std::max(1, static_cast<int>(std::lround(size * scale)));
-  };
-  Raster<std::uint8_t> small(side(image.width()), side(image.height()), 0, image.channels());
+  const ImageSize size = reduced_size(image.width(), image.height(), max_image_px);
+  if (size.width == image.width() && size.height == image.height()) return image;
+  Raster<std::uint8_t> small(size.width, size.height, 0, image.channels());
   cv::Mat into = view_of(small);
   cv::resize(view_of(image), into, into.size(), 0.0, 0.0, cv::INTER_AREA);
   return small;
@@ -72,6 +68,16 @@ std::vector<std::filesystem::path> photo_files(const std::filesystem::path& fold
     throw input_error(folder, "holds no photos", "give a folder of JPEG, PNG or TIFF photos");
   }
   return files;
+}
+
+ImageSize reduced_size(int width, int height, int max_image_px) {
+  const int longer = std::max(width, height);
+  if (max_image_px <= 0 || longer <= max_image_px) return {width, height};
+  const double scale = static_cast<double>(max_image_px) / longer;
+  const auto side = [&](int size) {
+    return std::max(1, static_cast<int>(std::lround(size * scale)));
+  };
+  return {side(width), side(height)};
 }
 
 Photo read_photo(const std::filesystem::path& path, int max_image_px) {

@@ -18,6 +18,13 @@ std::vector<std::filesystem::path> photo_files(const std::filesystem::path& fold
 /// absent. Throws Error (input) for a missing, empty, non-image or Git LFS pointer file.
 PhotoMetadata read_photo_metadata(const std::filesystem::path& path);
 
+/// The size that `read_photo` reduces an image to.
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+ImageSize reduced_size(int width, int height, int max_image_px);
+
 /// The photo with its pixels as stored (the orientation tag is not applied), reduced by area so
 /// that neither side exceeds `max_image_px`; 0 = as it is. The metadata keeps the size of the
 /// file: the ratio of both widths is the reduction. Throws Error (input), also where the image is

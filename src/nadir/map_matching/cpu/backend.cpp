@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "nadir/map_matching/cpu/closed_form_surface.hpp"
+#include "nadir/map_matching/cpu/map_cache.hpp"
 #include "nadir/map_matching/cpu/paper_surface.hpp"
 #include "nadir/map_matching/cpu/pose_scorer.hpp"
+#include "nadir/map_matching/cpu/region.hpp"
 #include "nadir/map_matching/cpu/sad_surface.hpp"
 #include "nadir/map_matching/cpu/sampled_score.hpp"
 #include "nadir/map_matching/surface.hpp"
@@ -52,18 +54,23 @@ PoseScore closed_form_score(const MapIndex& map, const cpu::PixelList& pixels, c
 
 class CpuBackend : public MatchingBackend {
  public:
+  std::shared_ptr<PreparedMap> prepare(const MapIndex& /*map*/) const override {
+    return std::make_shared<cpu::MapCache>();
+  }
+
   std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                            std::span<const RotatedTemplate> templates,
                                            const PixelWindow& window) const override {
     if (templates.empty() || window.width <= 0 || window.height <= 0) return {};
     const MatchingOptions& options = map.options();
-    const cpu::Region region =
-        cpu::cut_region(map.channel(), templates, window, pixel_role(options).whole_square);
-    if (options.score == Score::kSad) return cpu::sad_surfaces(options, region, templates, window);
-    if (options.score == Score::kWnccPaper) {
-      return cpu::paper_surfaces(options, region, templates, window);
+    if (cpu::is_closed_form(options.score)) {
+      return cpu::closed_form_surfaces(map, templates, window);
     }
-    return cpu::closed_form_surfaces(options, region, templates, window);
+    const cpu::Region region =
+        cpu::cut_region(map.channel(), templates, window, pixel_role(options).whole_square,
+                        cpu::RegionExtent::kWhole);
+    if (options.score == Score::kSad) return cpu::sad_surfaces(options, region, templates, window);
+    return cpu::paper_surfaces(options, region, templates, window);
   }
 
   std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,

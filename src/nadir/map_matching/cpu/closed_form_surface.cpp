@@ -1,133 +1,198 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/map_matching/cpu/closed_form_surface.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 
+#include "nadir/map_matching/cpu/map_cache.hpp"
+#include "nadir/map_matching/cpu/region.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 
 namespace nadir::cpu {
 namespace {
 
-/// The map's side of the correlations.
-struct MapSpectra {
-  Spectrum mask;     ///< of V
-  Spectrum value;    ///< of V R'
-  Spectrum squares;  ///< of V R'^2
-  Spectrum seen;     ///< of what was really seen; empty where that is V
-};
+constexpr float kUndefined = std::numeric_limits<float>::quiet_NaN();
 
-MapSpectra map_spectra(const RealFft& fft, const Region& region, double shift, bool seen_apart) {
-  const Raster<float> value = shifted(region.value, region.takes_part, shift);
-  MapSpectra spectra;
-  spectra.mask = fft.forward(region.takes_part);
-  spectra.value = fft.forward(value);
-  spectra.squares = fft.forward(times(value, value));
-  if (seen_apart) spectra.seen = fft.forward(region.valid);
+/// Larger windows are worked on in tiles, so that a transform is about this long at most.
+constexpr int kLongestTransform = 2048;
+constexpr int kSmallestTile = 512;
+
+/// What the headings that are worked on at the same time may take, bytes; one always may.
+constexpr std::size_t kScratchBudget = std::size_t{256} << 20U;
+
+std::shared_ptr<const MapSpectra> compute_spectra(const MapIndex& map, const Region& region) {
+  const bool whole_square = pixel_role(map.options()).whole_square;
+  auto spectra = std::make_shared<MapSpectra>(
+      MapSpectra{Correlator(region.period_width, region.period_height), map.mean_grey()});
+  const Raster<float> value = shifted(region.value, region.takes_part, spectra->shift);
+  spectra->mask = spectra->correlator.forward(region.takes_part);
+  spectra->value = spectra->correlator.forward(value);
+  spectra->squares = spectra->correlator.forward(times(value, value));
+  if (whole_square) spectra->seen = spectra->correlator.forward(region.valid);
   return spectra;
 }
 
-/// One template over the window: runs the correlations it needs and puts the score together.
-class TemplateCorrelator {
- public:
-  TemplateCorrelator(const RealFft& fft, const MapSpectra& map, const MatchingOptions& options,
-                     const Region& region, const RotatedTemplate& local, const PixelWindow& window,
-                     double map_shift)
-      : fft_(fft),
-        map_(map),
-        options_(options),
-        local_(local),
-        window_(window),
-        left_(local.left - region.template_left),
-        top_(local.top - region.template_top),
-        shifts_{map_shift, mean_grey(local.value, local.mask)} {}
+/// The images of a template whose spectra take part, and the products of them with the map's.
+struct LocalImages {
+  std::vector<Raster<float>> images;  ///< a, a P', a P'^2, then what the score needs beyond
+  std::vector<Product> products{std::begin(kZeroMeanProducts), std::end(kZeroMeanProducts)};
+  int wncc = -1;  ///< index of the first of the two products of wncc alone
+  int seen = 0;   ///< index of the product that says what was really seen
+};
 
-  ScoreSurface surface() const {
-    const Raster<float>& a = pixel_role(options_).weighted_norms ? local_.weight : local_.mask;
-    const Raster<float> unit = shifted(local_.value, local_.mask, shifts_.local);
-    const Raster<float> ap = times(a, unit);
-    const Spectrum a_spectrum = fft_.forward(a);
-    const Spectrum p_spectrum = fft_.forward(ap);
-    const Spectrum pp_spectrum = fft_.forward(times(ap, unit));
+constexpr std::size_t kSeenSpectrum = 3;  // after V, V R', V R'^2
 
-    std::array<Raster<float>, 9> sums;
-    std::vector<std::function<void()>> jobs = {
-        [&] { sums[0] = correlate(map_.mask, a_spectrum); },
-        [&] { sums[1] = correlate(map_.value, a_spectrum); },
-        [&] { sums[2] = correlate(map_.squares, a_spectrum); },
-        [&] { sums[3] = correlate(map_.mask, p_spectrum); },
-        [&] { sums[4] = correlate(map_.mask, pp_spectrum); },
-        [&] { sums[5] = correlate(map_.value, p_spectrum); }};
-    Spectrum wp_spectrum;
-    if (options_.score == Score::kWncc) {
-      wp_spectrum = fft_.forward(times(local_.weight, shifted(local_.value, local_.mask, 0.0)));
-      jobs.emplace_back([&] { sums[6] = correlate(map_.mask, wp_spectrum); });
-      jobs.emplace_back([&] { sums[7] = correlate(map_.value, wp_spectrum); });
-    }
-    // The share of what is compared is the sum of weights itself, unless holes take part.
-    const bool seen_apart = !map_.seen.empty();
-    Spectrum seen_spectrum;
-    if (seen_apart) {
-      seen_spectrum = fft_.forward(local_.seen);
-      jobs.emplace_back([&] { sums[8] = correlate(map_.seen, seen_spectrum); });
-    }
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job) { jobs[job](); });
-    return assemble(sums, seen_apart ? sums[8] : sums[0]);
+LocalImages local_images(const MatchingOptions& options, const RotatedTemplate& local,
+                         double shift) {
+  LocalImages result;
+  const PixelRole role = pixel_role(options);
+  const Raster<float>& a = role.weighted_norms ? local.weight : local.mask;
+  const Raster<float> unit = shifted(local.value, local.mask, shift);
+  Raster<float> ap = times(a, unit);
+  Raster<float> app = times(ap, unit);
+  result.images.push_back(a);
+  result.images.push_back(std::move(ap));
+  result.images.push_back(std::move(app));
+  if (options.score == Score::kWncc) {
+    result.wncc = static_cast<int>(result.products.size());
+    result.products.push_back({0, result.images.size()});
+    result.products.push_back({1, result.images.size()});
+    result.images.push_back(times(local.weight, shifted(local.value, local.mask, 0.0)));
   }
-
- private:
-  Raster<float> correlate(const Spectrum& map, const Spectrum& local) const {
-    return fft_.correlate(map, local, left_, top_, window_.width, window_.height);
+  // The share of what is compared is the sum of weights itself, unless holes take part.
+  if (role.whole_square) {
+    result.seen = static_cast<int>(result.products.size());
+    result.products.push_back({kSeenSpectrum, result.images.size()});
+    result.images.push_back(local.seen);
   }
+  return result;
+}
 
-  ScoreSurface assemble(const std::array<Raster<float>, 9>& sums, const Raster<float>& seen) const {
-    ScoreSurface surface{
-        Raster<float>(window_.width, window_.height, std::numeric_limits<float>::quiet_NaN()),
-        Raster<float>(window_.width, window_.height)};
-    const auto value = [&](std::size_t which, std::size_t i) -> double {
-      return sums[which].empty() ? 0.0 : sums[which].values()[i];
-    };
-    for (std::size_t i = 0; i < surface.score.values().size(); ++i) {
-      const double share = local_.total_seen > 0.0
-                               ? std::clamp(seen.values()[i] / local_.total_seen, 0.0, 1.0)
-                               : 0.0;
-      surface.valid_weight.values()[i] = static_cast<float>(share);
-      if (share < options_.min_valid_weight) continue;
-      const Sums at{value(0, i), value(1, i), value(2, i), value(3, i),
-                    value(4, i), value(5, i), value(6, i), value(7, i)};
-      surface.score.values()[i] = static_cast<float>(score_from_sums(options_.score, at, shifts_));
-    }
+/// Puts rows of sums together to scores, in double.
+void assemble(const MatchingOptions& options, const LocalImages& images, const Shifts& shifts,
+              double total_seen, std::span<const float* const> sums, std::size_t count,
+              float* score, float* valid_weight) {
+  const auto at = [&](int k, std::size_t i) {
+    return k < 0 ? 0.0 : static_cast<double>(sums[static_cast<std::size_t>(k)][i]);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share =
+        total_seen > 0.0 ? std::clamp(at(images.seen, i) / total_seen, 0.0, 1.0) : 0.0;
+    valid_weight[i] = static_cast<float>(share);
+    if (share < options.min_valid_weight) continue;
+    const Sums values{
+        at(0, i), at(1, i), at(2, i),           at(3, i),
+        at(4, i), at(5, i), at(images.wncc, i), images.wncc < 0 ? 0.0 : at(images.wncc + 1, i)};
+    score[i] = static_cast<float>(score_from_sums(options.score, values, shifts));
+  }
+}
+
+ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options, const Region& region,
+                        const RotatedTemplate& local, const PixelWindow& window,
+                        CorrelatorScratch& scratch, bool parallel) {
+  const Shifts shifts{map.shift, mean_grey(local.value, local.mask)};
+  const LocalImages images = local_images(options, local, shifts.local);
+  std::vector<const Raster<float>*> locals;
+  for (const Raster<float>& image : images.images) locals.push_back(&image);
+  std::vector<const Spectrum*> maps = {&map.mask, &map.value, &map.squares};
+  if (!map.seen.empty()) maps.push_back(&map.seen);
+  const CorrelationWindow part{local.left - region.left, local.top - region.top, window.width,
+                               window.height};
+
+  ScoreSurface surface{Raster<float>(window.width, window.height, kUndefined),
+                       Raster<float>(window.width, window.height)};
+  if (options.score == Score::kZncc || options.score == Score::kZwncc) {
+    map.correlator.zero_mean(maps, locals, part, local.total_seen, options.min_valid_weight,
+                             surface.score, surface.valid_weight, scratch, parallel);
     return surface;
   }
+  map.correlator.correlate(
+      maps, locals, images.products, part,
+      [&](int row, int rows, std::span<const float* const> sums) {
+        assemble(options, images, shifts, local.total_seen, sums,
+                 static_cast<std::size_t>(rows) * static_cast<std::size_t>(window.width),
+                 surface.score.row(row).data(), surface.valid_weight.row(row).data());
+      },
+      scratch, parallel);
+  return surface;
+}
 
-  const RealFft& fft_;
-  const MapSpectra& map_;
-  const MatchingOptions& options_;
-  const RotatedTemplate& local_;
-  const PixelWindow& window_;
-  int left_;
-  int top_;
-  Shifts shifts_;
-};
+/// Surfaces over a window that one transform holds.
+std::vector<ScoreSurface> tile_surfaces(const MapIndex& map,
+                                        std::span<const RotatedTemplate> templates,
+                                        const PixelWindow& window) {
+  const MatchingOptions& options = map.options();
+  const bool whole_square = pixel_role(options).whole_square;
+  const Region region = cut_region(map.channel(), templates, window, whole_square,
+                                   whole_square ? RegionExtent::kWhole : RegionExtent::kWithinMap);
+  const bool whole_map = !whole_square && region.value.same_size(map.channel().value);
+  const auto compute = [&] { return compute_spectra(map, region); };
+  // Another backend's where the index was made for that one.
+  auto* const cache = dynamic_cast<MapCache*>(map.prepared());
+  const std::shared_ptr<const MapSpectra> spectra =
+      whole_map && cache != nullptr
+          ? cache->whole_map(cheapest_fft_size(static_cast<std::size_t>(region.period_width),
+                                               static_cast<std::size_t>(region.period_height)),
+                             compute)
+          : compute();
+
+  // Slots, each with its memory, work on headings at the same time.
+  const TemplateBounds bounds = bounds_of(templates);
+  const std::size_t a_slot = spectra->correlator.scratch_bytes(
+      std::size(kZeroMeanProducts) + 3, 5, static_cast<std::size_t>(bounds.bottom - bounds.top),
+      static_cast<std::size_t>(window.height));
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t slots =
+      std::max<std::size_t>(1, std::min({templates.size(), threads, kScratchBudget / a_slot}));
+  std::vector<ScoreSurface> surfaces(templates.size());
+  tbb::parallel_for(std::size_t{0}, slots, [&](std::size_t slot) {
+    CorrelatorScratch scratch;
+    for (std::size_t k = slot; k < templates.size(); k += slots) {
+      surfaces[k] =
+          surface_of(*spectra, options, region, templates[k], window, scratch, slots < threads);
+    }
+  });
+  return surfaces;
+}
+
+void paste(const Raster<float>& tile, int left, int top, Raster<float>& whole) {
+  for (int row = 0; row < tile.height(); ++row) {
+    const auto from = tile.row(row);
+    std::copy(from.begin(), from.end(), whole.row(top + row).begin() + left);
+  }
+}
 
 }  // namespace
 
-std::vector<ScoreSurface> closed_form_surfaces(const MatchingOptions& options, const Region& region,
+std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
                                                std::span<const RotatedTemplate> templates,
                                                const PixelWindow& window) {
-  const RealFft fft(region.value.width(), region.value.height());
-  const double map_shift = mean_grey(region.value, region.takes_part);
-  const MapSpectra spectra = map_spectra(fft, region, map_shift, pixel_role(options).whole_square);
-  std::vector<ScoreSurface> surfaces(templates.size());
-  tbb::parallel_for(std::size_t{0}, templates.size(), [&](std::size_t k) {
-    surfaces[k] = TemplateCorrelator(fft, spectra, options, region, templates[k], window, map_shift)
-                      .surface();
-  });
+  const TemplateBounds bounds = bounds_of(templates);
+  const int width = std::max(kSmallestTile, kLongestTransform - (bounds.right - bounds.left));
+  const int height = std::max(kSmallestTile, kLongestTransform - (bounds.bottom - bounds.top));
+  if (window.width <= width && window.height <= height) {
+    return tile_surfaces(map, templates, window);
+  }
+  std::vector<ScoreSurface> surfaces(templates.size(),
+                                     {Raster<float>(window.width, window.height, kUndefined),
+                                      Raster<float>(window.width, window.height)});
+  for (int top = 0; top < window.height; top += height) {
+    for (int left = 0; left < window.width; left += width) {
+      const std::vector<ScoreSurface> tiles =
+          tile_surfaces(map, templates,
+                        {window.left + left, window.top + top, std::min(width, window.width - left),
+                         std::min(height, window.height - top)});
+      for (std::size_t k = 0; k < tiles.size(); ++k) {
+        paste(tiles[k].score, left, top, surfaces[k].score);
+        paste(tiles[k].valid_weight, left, top, surfaces[k].valid_weight);
+      }
+    }
+  }
   return surfaces;
 }
 

@@ -3,13 +3,14 @@
 
 #include <vector>
 
-#include "nadir/map_matching/cpu/region.hpp"
+#include "nadir/map_matching/surface.hpp"
 
 namespace nadir::cpu {
 
 /// Surfaces of all scores that are closed forms of sums (score_from_sums), by FFT: six correlations
-/// a heading against three spectra of the map.
-std::vector<ScoreSurface> closed_form_surfaces(const MatchingOptions& options, const Region& region,
+/// a heading against three spectra of the map. Works in tiles of bounded size and on as many
+/// headings at once as 256 MiB allow.
+std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
                                                std::span<const RotatedTemplate> templates,
                                                const PixelWindow& window);
 

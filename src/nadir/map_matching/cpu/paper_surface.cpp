@@ -9,13 +9,17 @@
 #include <limits>
 #include <map>
 
+#include "nadir/map_matching/cpu/correlator.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 
 namespace nadir::cpu {
 namespace {
 
 constexpr float kUndefined = std::numeric_limits<float>::quiet_NaN();
-constexpr double kMinVariance = 1.0;  // grey^2
+constexpr double kMinGreyVariance = 1.0;  // grey^2
+
+/// Levels that are correlated at a time: bounds the memory.
+constexpr std::size_t kLevelsAtOnce = 8;
 
 /// The window's mean and norm at every position of one template.
 struct WindowMoments {
@@ -27,7 +31,7 @@ struct WindowMoments {
   Raster<float> valid_weight;
 };
 
-struct MapSpectra {
+struct PaperMapSpectra {
   double shift = 0.0;
   Spectrum value;
   Spectrum squares;
@@ -40,9 +44,15 @@ double count_of(const Raster<float>& mask) {
   return count;
 }
 
-WindowMoments window_moments(const RealFft& fft, const MapSpectra& map, const Region& region,
-                             const RotatedTemplate& local, const PixelWindow& window,
-                             double min_valid_weight) {
+CorrelationWindow part_of(const Region& region, const RotatedTemplate& local,
+                          const PixelWindow& window) {
+  return {local.left - region.left, local.top - region.top, window.width, window.height};
+}
+
+WindowMoments window_moments(const Correlator& correlator, const PaperMapSpectra& map,
+                             const Region& region, const RotatedTemplate& local,
+                             const PixelWindow& window, double min_valid_weight,
+                             CorrelatorScratch& scratch) {
   WindowMoments moments;
   moments.count = count_of(local.mask);
   const double local_mean = mean_grey(local.value, local.mask);
@@ -53,34 +63,35 @@ WindowMoments window_moments(const RealFft& fft, const MapSpectra& map, const Re
     moments.local_norm += local.mask.values()[i] * deviation * deviation;
   }
 
-  const int left = local.left - region.template_left;
-  const int top = local.top - region.template_top;
-  const auto correlate = [&](const Spectrum& a, const Spectrum& b) {
-    return fft.correlate(a, b, left, top, window.width, window.height);
-  };
-  const Spectrum mask = fft.forward(local.mask);
-  const Raster<float> sum = correlate(map.value, mask);
-  const Raster<float> squares = correlate(map.squares, mask);
-  const Raster<float> seen = correlate(map.seen, fft.forward(local.seen));
-
+  const Spectrum* const maps[] = {&map.value, &map.squares, &map.seen};
+  const Raster<float>* const locals[] = {&local.mask, &local.seen};
+  const Product products[] = {{0, 0}, {1, 0}, {2, 1}};
   moments.mean = Raster<float>(window.width, window.height, kUndefined);
   moments.norm = moments.mean;
   moments.valid_weight = Raster<float>(window.width, window.height);
-  for (std::size_t i = 0; i < sum.values().size(); ++i) {
-    const double share =
-        local.total_seen > 0.0 ? std::clamp(seen.values()[i] / local.total_seen, 0.0, 1.0) : 0.0;
-    moments.valid_weight.values()[i] = static_cast<float>(share);
-    const double mean = sum.values()[i] / moments.count;
-    const double norm =
-        (squares.values()[i] - moments.count * mean * mean) * kGreyScale * kGreyScale;
-    if (share < min_valid_weight || norm < kMinVariance * moments.count ||
-        moments.local_norm < kMinVariance * moments.count) {
-      continue;
-    }
-    moments.mean.values()[i] =
-        static_cast<float>(std::clamp(map.shift + kGreyScale * mean, 0.0, 255.0));
-    moments.norm.values()[i] = static_cast<float>(norm);
-  }
+  correlator.correlate(
+      maps, locals, products, part_of(region, local, window),
+      [&](int first_row, int rows, std::span<const float* const> sums) {
+        const std::size_t first =
+            static_cast<std::size_t>(first_row) * static_cast<std::size_t>(window.width);
+        const std::size_t count =
+            static_cast<std::size_t>(rows) * static_cast<std::size_t>(window.width);
+        for (std::size_t i = 0; i < count; ++i) {
+          const double share =
+              local.total_seen > 0.0 ? std::clamp(sums[2][i] / local.total_seen, 0.0, 1.0) : 0.0;
+          moments.valid_weight.values()[first + i] = static_cast<float>(share);
+          const double mean = sums[0][i] / moments.count;
+          const double norm = (sums[1][i] - moments.count * mean * mean) * kGreyScale * kGreyScale;
+          if (share < min_valid_weight || norm < kMinGreyVariance * moments.count ||
+              moments.local_norm < kMinGreyVariance * moments.count) {
+            continue;
+          }
+          moments.mean.values()[first + i] =
+              static_cast<float>(std::clamp(map.shift + kGreyScale * mean, 0.0, 255.0));
+          moments.norm.values()[first + i] = static_cast<float>(norm);
+        }
+      },
+      scratch, true);
   return moments;
 }
 
@@ -93,7 +104,7 @@ Raster<float> absolute_deviation(const Raster<float>& value, int level) {
   return result;
 }
 
-std::map<int, Spectrum> level_spectra(const RealFft& fft, const Region& region,
+std::map<int, Spectrum> level_spectra(const Correlator& correlator, const Region& region,
                                       std::span<const WindowMoments> moments) {
   std::array<bool, 257> needed{};
   for (const WindowMoments& window : moments) {
@@ -110,36 +121,63 @@ std::map<int, Spectrum> level_spectra(const RealFft& fft, const Region& region,
   tbb::parallel_for(0, static_cast<int>(needed.size()), [&](int level) {
     const auto found = spectra.find(level);
     if (found == spectra.end()) return;
-    found->second = fft.forward(absolute_deviation(region.value, level));
+    found->second = correlator.forward(absolute_deviation(region.value, level));
   });
   return spectra;
 }
 
-/// Adds level L's share to the numerator wherever L is next to the window's mean: the weight falls
-/// linearly to 0 one level away.
-void add_level(Raster<float>& numerator, const Raster<float>& correlation,
-               const Raster<float>& mean, int level) {
-  for (std::size_t i = 0; i < numerator.values().size(); ++i) {
-    const float distance = std::abs(mean.values()[i] - static_cast<float>(level));
-    if (distance < 1.0F) numerator.values()[i] += (1.0F - distance) * correlation.values()[i];
+/// The numerator at every position: between integer levels it is linear in the window's mean, so
+/// the correlations at the levels below and above interpolate it exactly.
+Raster<float> numerator_of(const Correlator& correlator, const std::map<int, Spectrum>& levels,
+                           const Region& region, const RotatedTemplate& local,
+                           const PixelWindow& window, const WindowMoments& moments,
+                           CorrelatorScratch& scratch) {
+  std::vector<int> used;
+  for (const auto& entry : levels) {
+    const auto at = static_cast<float>(entry.first);
+    if (std::any_of(moments.mean.values().begin(), moments.mean.values().end(),
+                    [at](float mean) { return std::abs(mean - at) < 1.0F; })) {
+      used.push_back(entry.first);
+    }
   }
+  Raster<float> numerator(window.width, window.height);
+  const Raster<float>* const locals[] = {&moments.deviation};
+  for (std::size_t begin = 0; begin < used.size(); begin += kLevelsAtOnce) {
+    const std::size_t end = std::min(begin + kLevelsAtOnce, used.size());
+    std::vector<const Spectrum*> maps;
+    std::vector<Product> products;
+    for (std::size_t i = begin; i < end; ++i) {
+      maps.push_back(&levels.at(used[i]));
+      products.push_back({i - begin, 0});
+    }
+    correlator.correlate(
+        maps, locals, products, part_of(region, local, window),
+        [&](int first_row, int rows, std::span<const float* const> sums) {
+          const std::size_t first =
+              static_cast<std::size_t>(first_row) * static_cast<std::size_t>(window.width);
+          const std::size_t count =
+              static_cast<std::size_t>(rows) * static_cast<std::size_t>(window.width);
+          for (std::size_t k = 0; k < sums.size(); ++k) {
+            const auto level = static_cast<float>(used[begin + k]);
+            for (std::size_t i = 0; i < count; ++i) {
+              const float distance = std::abs(moments.mean.values()[first + i] - level);
+              if (distance < 1.0F) {
+                numerator.values()[first + i] += (1.0F - distance) * sums[k][i];
+              }
+            }
+          }
+        },
+        scratch, true);
+  }
+  return numerator;
 }
 
-ScoreSurface paper_surface(const RealFft& fft, const std::map<int, Spectrum>& levels,
+ScoreSurface paper_surface(const Correlator& correlator, const std::map<int, Spectrum>& levels,
                            const Region& region, const RotatedTemplate& local,
-                           const PixelWindow& window, const WindowMoments& moments) {
-  const Spectrum deviation = fft.forward(moments.deviation);
-  Raster<float> numerator(window.width, window.height);
-  for (const auto& [level, spectrum] : levels) {
-    const bool used = std::any_of(
-        moments.mean.values().begin(), moments.mean.values().end(),
-        [at = static_cast<float>(level)](float mean) { return std::abs(mean - at) < 1.0F; });
-    if (!used) continue;
-    const Raster<float> correlation =
-        fft.correlate(spectrum, deviation, local.left - region.template_left,
-                      local.top - region.template_top, window.width, window.height);
-    add_level(numerator, correlation, moments.mean, level);
-  }
+                           const PixelWindow& window, const WindowMoments& moments,
+                           CorrelatorScratch& scratch) {
+  const Raster<float> numerator =
+      numerator_of(correlator, levels, region, local, window, moments, scratch);
   ScoreSurface surface{Raster<float>(window.width, window.height, kUndefined),
                        moments.valid_weight};
   for (std::size_t i = 0; i < numerator.values().size(); ++i) {
@@ -156,23 +194,26 @@ ScoreSurface paper_surface(const RealFft& fft, const std::map<int, Spectrum>& le
 std::vector<ScoreSurface> paper_surfaces(const MatchingOptions& options, const Region& region,
                                          std::span<const RotatedTemplate> templates,
                                          const PixelWindow& window) {
-  const RealFft fft(region.value.width(), region.value.height());
-  MapSpectra map;
+  const Correlator correlator(region.period_width, region.period_height);
+  PaperMapSpectra map;
   map.shift = mean_grey(region.value, region.takes_part);
   const Raster<float> value = shifted(region.value, region.takes_part, map.shift);
-  map.value = fft.forward(value);
-  map.squares = fft.forward(times(value, value));
-  map.seen = fft.forward(region.valid);
+  map.value = correlator.forward(value);
+  map.squares = correlator.forward(times(value, value));
+  map.seen = correlator.forward(region.valid);
 
-  std::vector<WindowMoments> moments(templates.size());
-  tbb::parallel_for(std::size_t{0}, templates.size(), [&](std::size_t k) {
-    moments[k] = window_moments(fft, map, region, templates[k], window, options.min_valid_weight);
-  });
-  const std::map<int, Spectrum> levels = level_spectra(fft, region, moments);
-  std::vector<ScoreSurface> surfaces(templates.size());
-  tbb::parallel_for(std::size_t{0}, templates.size(), [&](std::size_t k) {
-    surfaces[k] = paper_surface(fft, levels, region, templates[k], window, moments[k]);
-  });
+  CorrelatorScratch scratch;
+  std::vector<WindowMoments> moments;
+  for (const RotatedTemplate& local : templates) {
+    moments.push_back(
+        window_moments(correlator, map, region, local, window, options.min_valid_weight, scratch));
+  }
+  const std::map<int, Spectrum> levels = level_spectra(correlator, region, moments);
+  std::vector<ScoreSurface> surfaces;
+  for (std::size_t k = 0; k < templates.size(); ++k) {
+    surfaces.push_back(
+        paper_surface(correlator, levels, region, templates[k], window, moments[k], scratch));
+  }
   return surfaces;
 }
 

@@ -6,28 +6,57 @@
 #include "nadir/map_matching/cpu/sums.hpp"
 
 namespace nadir::cpu {
+namespace {
+
+struct Interval {
+  int begin = 0;
+  int end = 0;  ///< one beyond
+};
+
+/// The part of `range` inside 0 .. size; where there is none, one pixel of it, a hole.
+Interval within(const Interval& range, int size) {
+  const Interval inside{std::max(range.begin, 0), std::min(range.end, size)};
+  return inside.begin < inside.end ? inside : Interval{range.begin, range.begin + 1};
+}
+
+/// No two pixels of `touched`, one of them in `kept`, may fall together.
+int period(const Interval& touched, const Interval& kept) {
+  return std::max(touched.end - kept.begin, kept.end - touched.begin);
+}
+
+}  // namespace
+
+TemplateBounds bounds_of(std::span<const RotatedTemplate> templates) {
+  TemplateBounds bounds{templates.front().left, templates.front().top, templates.front().left,
+                        templates.front().top};
+  for (const RotatedTemplate& local : templates) {
+    bounds.left = std::min(bounds.left, local.left);
+    bounds.top = std::min(bounds.top, local.top);
+    bounds.right = std::max(bounds.right, local.left + local.value.width());
+    bounds.bottom = std::max(bounds.bottom, local.top + local.value.height());
+  }
+  return bounds;
+}
 
 Region cut_region(const ChannelImage& map, std::span<const RotatedTemplate> templates,
-                  const PixelWindow& window, bool whole_square) {
-  int left = templates.front().left;
-  int top = templates.front().top;
-  int right = left;
-  int bottom = top;
-  for (const RotatedTemplate& local : templates) {
-    left = std::min(left, local.left);
-    top = std::min(top, local.top);
-    right = std::max(right, local.left + local.value.width());
-    bottom = std::max(bottom, local.top + local.value.height());
-  }
-  const int width = window.width + right - left - 1;
-  const int height = window.height + bottom - top - 1;
+                  const PixelWindow& window, bool whole_square, RegionExtent extent) {
+  const TemplateBounds bounds = bounds_of(templates);
+  const Interval columns{window.left + bounds.left, window.left + window.width - 1 + bounds.right};
+  const Interval rows{window.top + bounds.top, window.top + window.height - 1 + bounds.bottom};
+  const bool clip = extent == RegionExtent::kWithinMap;
+  const Interval u_range = clip ? within(columns, map.value.width()) : columns;
+  const Interval v_range = clip ? within(rows, map.value.height()) : rows;
 
-  Region region{left, top, Raster<float>(width, height), Raster<float>(width, height),
+  const int width = u_range.end - u_range.begin;
+  const int height = v_range.end - v_range.begin;
+  Region region{u_range.begin - window.left,  v_range.begin - window.top,
+                period(columns, u_range),     period(rows, v_range),
+                Raster<float>(width, height), Raster<float>(width, height),
                 Raster<float>(width, height)};
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
-      const int u = window.left + left + column;
-      const int v = window.top + top + row;
+      const int u = u_range.begin + column;
+      const int v = v_range.begin + row;
       const bool seen = map.value.contains(u, v) && map.valid.at(u, v) != 0;
       if (seen) region.valid.at(column, row) = 1.0F;
       if (!seen && !whole_square) continue;

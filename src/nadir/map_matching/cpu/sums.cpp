@@ -9,7 +9,6 @@ namespace nadir::cpu {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMinVariance = 1.0 / (kGreyScale * kGreyScale);  // 1 grey^2
 
 double zero_mean(const Sums& sums) {
   const double map_norm = sums.rr - sums.r * sums.r / sums.a;

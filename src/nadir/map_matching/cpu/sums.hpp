@@ -9,6 +9,9 @@ namespace nadir::cpu {
 /// precision: sums of squares then stay near their count, and float agrees with double to 5e-7.
 inline constexpr double kGreyScale = 64.0;
 
+/// Smallest variance, weighted and scaled, that leaves a score defined: 1 grey^2.
+inline constexpr double kMinVariance = 1.0 / (kGreyScale * kGreyScale);
+
 /// What every score but `sad` and `wncc_paper` is a function of: sums over the overlap, with the
 /// weights a, of the shifted values R' = (R - map_shift) / 64 and P' = (P - local_shift) / 64.
 struct Sums {

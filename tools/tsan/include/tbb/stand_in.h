@@ -161,6 +161,10 @@ class task_arena {
   int threads_;
 };
 
+namespace this_task_arena {
+inline int max_concurrency() { return task_arena().max_concurrency(); }
+}  // namespace this_task_arena
+
 }  // namespace tbb
 
 inline const char* TBB_runtime_version() { return "stand-in for ThreadSanitizer"; }

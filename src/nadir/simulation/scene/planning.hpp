@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "nadir/core/random.hpp"
+#include "nadir/simulation/scene/layout.hpp"
+
+namespace nadir::simulation {
+
+/// What the presets share: a place is planned in a fixed base shape, jittered and mirrored by its
+/// seed, and furnished by the same rules.
+class Planner {
+ public:
+  Planner(std::uint64_t seed, double width_m, double depth_m);
+
+  /// Share of the site in x and y -> local metres, mirrored as the seed says.
+  Eigen::Vector2d at(double x, double y) const;
+  double draw() { return random_.uniform(draws_++); }
+  double draw(double low, double high) { return low + (high - low) * draw(); }
+
+  Path path(std::initializer_list<Eigen::Vector2d> corners, std::initializer_list<double> radii,
+            bool endless = true) const;
+  void add_road(Path path, double half_width, RoadKind kind);
+  void add_area(double x, double y, double half_length, double half_width, AreaKind kind);
+  /// A building where there is room for it.
+  void try_building(double x, double y, double half_length, double half_width, double height,
+                    bool gable);
+  void add_hedge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool hedge);
+  void add_street_furniture();
+  void add_trees(int count, double smallest, double largest);
+  void add_parking_stalls(double from_edge);
+  void add_traffic_stalls();
+
+  Layout layout;
+
+ private:
+  RandomStream random_;
+  std::uint64_t draws_ = 0;
+  double width_;
+  double depth_;
+  bool flip_x_;
+  bool flip_y_;
+};
+
+}  // namespace nadir::simulation

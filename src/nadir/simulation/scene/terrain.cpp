@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/simulation/scene/terrain.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nadir/core/error.hpp"
+#include "nadir/simulation/scene/texture.hpp"
+#include "nadir/simulation/scene/things.hpp"
+
+namespace nadir::simulation {
+namespace {
+
+constexpr int kBlock = 32;  ///< texels a side that share one list of what is near
+
+/// Draws heights and colours of the whole extent, block by block.
+void draw_ground(Terrain& terrain) {
+  const double texel = terrain.options.texel_m;
+  const Eigen::Vector2d size = terrain.extent.high - terrain.extent.low;
+  const int width = static_cast<int>(std::ceil(size.x() / texel));
+  const int height = static_cast<int>(std::ceil(size.y() / texel));
+  Raster<float> nodes(width, height);
+  terrain.albedo = Raster<std::uint8_t>(width, height, 0, 4);
+  const int block_rows = (height + kBlock - 1) / kBlock;
+  tbb::parallel_for(0, block_rows, [&](int block_row) {
+    for (int left = 0; left < width; left += kBlock) {
+      const int top = block_row * kBlock;
+      const Eigen::Vector2d middle =
+          terrain.extent.low + texel * Eigen::Vector2d(left + 0.5 * kBlock, top + 0.5 * kBlock);
+      const Nearby nearby = terrain.model->near(middle, 0.75 * kBlock * texel);
+      for (int row = top; row < std::min(top + kBlock, height); ++row) {
+        for (int column = left; column < std::min(left + kBlock, width); ++column) {
+          const Eigen::Vector2d point =
+              terrain.extent.low + texel * Eigen::Vector2d(column + 0.5, row + 0.5);
+          nodes.at(column, row) = static_cast<float>(terrain.height(point, nearby));
+          const GroundSample sample = terrain.sample(point, static_cast<float>(texel), nearby);
+          for (int channel = 0; channel < 3; ++channel) {
+            terrain.albedo.at(column, row, channel) = encoded(sample.albedo[channel]);
+          }
+          terrain.albedo.at(column, row, 3) = encoded(sample.plants);
+        }
+      }
+    }
+  });
+  terrain.heights = HeightField(std::move(nodes), terrain.extent.low, texel);
+}
+
+void build_things(Terrain& terrain) {
+  const Layout& layout = terrain.layout;
+  const auto ground = [&](const Eigen::Vector2d& p) { return terrain.heights.at(p.x(), p.y()); };
+  for (const Building& building : layout.buildings) {
+    add_building(building, ground(building.plan.centre), terrain.seed, terrain.solids);
+  }
+  for (const Barrier& barrier : layout.barriers) {
+    add_barrier(barrier, ground(barrier.plan.centre), terrain.seed, terrain.solids);
+  }
+  for (const Post& post : layout.posts) add_post(post, ground(post.at), terrain.solids);
+  for (const Tree& tree : layout.trees) {
+    add_tree(tree, ground(tree.at), terrain.seed, terrain.solids);
+  }
+}
+
+Layout lay_out(WorldPreset preset, std::uint64_t seed, double width_m, double depth_m) {
+  switch (preset) {
+    case WorldPreset::kCampus:
+      return lay_out_campus(seed, width_m, depth_m);
+    case WorldPreset::kParking:
+      return lay_out_parking(seed, width_m, depth_m);
+    case WorldPreset::kFarm:
+      return lay_out_farm(seed, width_m, depth_m);
+  }
+  return {};
+}
+
+/// Bilinear colour of a mosaic, as linear reflectance; holes are plain grey.
+Eigen::Vector3f mosaic_colour(const Orthomosaic& map, const Eigen::Vector2d& point) {
+  const PixelCoordinate pixel = map.geo.pixel_at(point.x(), point.y());
+  const double u = std::clamp(pixel.column - 0.5, 0.0, std::max(map.width() - 1.001, 0.0));
+  const double v = std::clamp(pixel.row - 0.5, 0.0, std::max(map.height() - 1.001, 0.0));
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (int i = 0; i < 4; ++i) {
+    const int c = std::min(column + (i & 1), map.width() - 1);
+    const int r = std::min(row + (i >> 1), map.height() - 1);
+    const auto share = static_cast<float>(((i & 1) != 0 ? u - column : 1.0 - u + column) *
+                                          ((i >> 1) != 0 ? v - row : 1.0 - v + row));
+    for (int channel = 0; channel < 3; ++channel) {
+      const int from = map.image.channels() == 3 ? channel : 0;
+      const float value = map.valid.at(c, r) == 0 ? 90.0F : map.image.at(c, r, from);
+      sum[channel] += share * 0.62F * std::pow(value / 255.0F, 2.2F);
+    }
+  }
+  return sum;
+}
+
+double surface_height(const ElevationMap& surface, const Eigen::Vector2d& point) {
+  const PixelCoordinate pixel = surface.geo.pixel_at(point.x(), point.y());
+  const double u = std::clamp(pixel.column - 0.5, 0.0, std::max(surface.width() - 1.001, 0.0));
+  const double v = std::clamp(pixel.row - 0.5, 0.0, std::max(surface.height() - 1.001, 0.0));
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  const int right = std::min(column + 1, surface.width() - 1);
+  const int below = std::min(row + 1, surface.height() - 1);
+  const double a = u - column;
+  const double b = v - row;
+  const Raster<float>& height = surface.height_m;
+  return (1.0 - b) * ((1.0 - a) * height.at(column, row) + a * height.at(right, row)) +
+         b * ((1.0 - a) * height.at(column, below) + a * height.at(right, below));
+}
+
+/// Takes over a surface model: its lowest height becomes 0, and fills its holes.
+void drape_surface(const ElevationMap& surface, Terrain& terrain) {
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const float height : surface.height_m.values()) {
+    if (std::isfinite(height)) lowest = std::min(lowest, height);
+  }
+  if (!std::isfinite(lowest)) {
+    throw Error(ErrorKind::kInput, "a surface model without any height cannot be draped");
+  }
+  ElevationMap draped = surface;
+  for (float& height : draped.height_m.values()) {
+    height = std::isfinite(height) ? height - lowest : 0.0F;
+  }
+  draped.geo.west -= terrain.anchor.easting_m;
+  draped.geo.north -= terrain.anchor.northing_m;
+  terrain.anchor.altitude_m = lowest;
+  terrain.draped_surface = std::move(draped);
+}
+
+/// A route of its own: a round through the middle of the map.
+void add_round(Terrain& terrain) {
+  const double width = terrain.options.width_m;
+  const double depth = terrain.options.depth_m;
+  const double inset = std::min(0.25 * std::min(width, depth), 30.0);
+  const std::vector<Eigen::Vector2d> corners{{inset, 0.5 * depth},
+                                             {inset, inset},
+                                             {width - inset, inset},
+                                             {width - inset, depth - inset},
+                                             {inset, depth - inset}};
+  const std::vector<double> radii{0.4 * inset};
+  terrain.layout.routes.emplace_back(corners, radii, false);
+}
+
+}  // namespace
+
+double Terrain::height(const Eigen::Vector2d& point, const Nearby& nearby) const {
+  return draped_surface ? surface_height(*draped_surface, point) : model->height(point, nearby);
+}
+
+GroundSample Terrain::sample(const Eigen::Vector2d& point, float footprint,
+                             const Nearby& nearby) const {
+  if (!draped) return model->sample(point, footprint, nearby);
+  return {mosaic_colour(*draped, point), 0.0F};
+}
+
+std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptions& options) {
+  auto terrain = std::make_shared<Terrain>();
+  terrain->seed = seed;
+  terrain->options = options;
+  const Eigen::Vector2d margin(options.margin_m, options.margin_m);
+  terrain->extent = {-margin, Eigen::Vector2d(options.width_m, options.depth_m) + margin};
+  terrain->layout = lay_out(options.preset, seed, options.width_m, options.depth_m);
+  terrain->model = std::make_unique<GroundModel>(seed, terrain->layout, options.relief_m,
+                                                 terrain->extent.low, terrain->extent.high);
+  draw_ground(*terrain);
+  build_things(*terrain);
+  return terrain;
+}
+
+std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosaic& map,
+                                             const std::optional<ElevationMap>& surface) {
+  auto terrain = std::make_shared<Terrain>();
+  terrain->seed = seed;
+  if (map.image.empty() || (map.image.channels() != 1 && map.image.channels() != 3)) {
+    throw Error(ErrorKind::kInput, "an orthomosaic without pixels cannot be draped");
+  }
+  const GeoReference& geo = map.geo;
+  terrain->anchor.crs = geo.crs;
+  const double south = geo.y_at(map.height());
+  terrain->anchor.easting_m = geo.west;
+  terrain->anchor.northing_m = south;
+  terrain->options.width_m = map.width() * geo.resolution;
+  terrain->options.depth_m = map.height() * geo.resolution;
+  terrain->options.margin_m = 0.0;
+  terrain->options.relief_m = 0.0;
+  terrain->options.texel_m = std::clamp(0.5 * geo.resolution, 0.02, 1.0);
+  terrain->extent = {Eigen::Vector2d::Zero(), {terrain->options.width_m, terrain->options.depth_m}};
+  terrain->layout.painted = false;
+  terrain->draped = map;
+  terrain->draped->geo = {0.0, terrain->options.depth_m, geo.resolution, {}};
+  terrain->model = std::make_unique<GroundModel>(seed, terrain->layout, 0.0, terrain->extent.low,
+                                                 terrain->extent.high);
+  if (surface) drape_surface(*surface, *terrain);
+  add_round(*terrain);
+  draw_ground(*terrain);
+  return terrain;
+}
+
+}  // namespace nadir::simulation
