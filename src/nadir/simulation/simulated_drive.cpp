@@ -29,7 +29,7 @@ enum Stream : std::uint64_t {
 };
 
 constexpr std::int64_t kStart = 1'748'880'000LL * 1'000'000'000LL;
-constexpr double kRefined = 9.0;  ///< metres from the route that are drawn in finest detail
+constexpr double kRefined = 7.0;  ///< metres from the route that are drawn in finest detail
 
 std::uint64_t index_of(int frame) { return static_cast<std::uint64_t>(frame); }
 

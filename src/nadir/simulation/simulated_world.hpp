@@ -28,7 +28,7 @@ struct WorldOptions {
   double depth_m = 90.0;   ///< north-south
   double margin_m = 25.0;  ///< of world in full detail around the site
   double relief_m = 0.8;   ///< amplitude of the hills; 0 = level
-  double texel_m = 0.05;   ///< of the stored picture and heights; a third of it near a drive
+  double texel_m = 0.05;   ///< of the stored picture and heights; half of it near a drive
 };
 
 /// The light and the traffic of an hour: what makes two visits of one place look different.

@@ -38,7 +38,7 @@ void declare(OptionTable& table, WorldOptions& options) {
   table.number(part + "relief_m", options.relief_m, {0.0, 10.0},
                "Amplitude of the hills, metres; 0 = level ground.");
   table.number(part + "texel_m", options.texel_m, {0.02, 0.5},
-               "Grid of the stored ground, metres; near a drive it is drawn three times finer.");
+               "Grid of the stored ground, metres; near a drive it is drawn twice as fine.");
 }
 
 void declare(OptionTable& table, const std::string& name, Appearance& appearance) {

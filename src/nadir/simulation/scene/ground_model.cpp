@@ -102,10 +102,9 @@ GroundSpot GroundModel::locate(const Eigen::Vector2d& point, float footprint,
   return spot;
 }
 
-double GroundModel::height(const Eigen::Vector2d& point, const Nearby& nearby) const {
-  const double base = relief(point);
+double GroundModel::height(const GroundSpot& spot) const {
+  const double base = relief(spot.point);
   if (!layout_.painted) return base;
-  const GroundSpot spot = locate(point, 0.05F, nearby);
   const double outside = spot.carriageway;
   if (outside > 0.0) {
     // Pavements rise away from the kerb; lawns are never quite even.
@@ -119,9 +118,8 @@ double GroundModel::height(const Eigen::Vector2d& point, const Nearby& nearby) c
   return base + 0.025 * (inside - 1.75) * (spot.kerbed < 0.0 ? 1.0 : 0.0) - kKerbHeight * face;
 }
 
-GroundSample GroundModel::sample(const Eigen::Vector2d& point, float footprint,
-                                 const Nearby& nearby) const {
-  const GroundSpot spot = locate(point, footprint, nearby);
+GroundSample GroundModel::sample(const GroundSpot& spot, const Nearby& nearby) const {
+  const float footprint = spot.footprint;
   const float soft = std::max(0.5F * footprint, 0.008F);
   const auto outside = static_cast<float>(spot.carriageway);
   GroundSample sample;

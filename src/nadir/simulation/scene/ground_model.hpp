@@ -34,13 +34,14 @@ class GroundModel {
 
   /// What shows within `reach` metres of a point.
   Nearby near(const Eigen::Vector2d& point, double reach) const;
+  /// How a point, seen by a pixel of width `footprint` metres, lies against all that is near it.
+  GroundSpot locate(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
   /// Height above the datum of the world; kerbs, cambers and gutters included.
-  double height(const Eigen::Vector2d& point, const Nearby& nearby) const;
-  /// Colour as a pixel of width `footprint` metres sees it.
-  GroundSample sample(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
+  double height(const GroundSpot& spot) const;
+  /// Colour as that pixel sees it.
+  GroundSample sample(const GroundSpot& spot, const Nearby& nearby) const;
 
  private:
-  GroundSpot locate(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
   double relief(const Eigen::Vector2d& point) const;
 
   GroundSample grass(const GroundSpot& spot, const Nearby& nearby) const;

@@ -96,7 +96,8 @@ PathPoint Path::locate_on(const Piece& piece, const Eigen::Vector2d& point, doub
     const double across = cross(piece.direction, offset);
     const double clamped = std::clamp(along, low, high);
     if (clamped == along) return {piece.start + along, across};
-    const double distance = std::hypot(along - clamped, across);
+    const double beyond = along - clamped;
+    const double distance = std::sqrt(beyond * beyond + across * across);
     return {piece.start + clamped, std::copysign(distance, across)};
   }
   const Eigen::Vector2d spoke = point - piece.centre;
@@ -113,10 +114,18 @@ PathPoint Path::locate_on(const Piece& piece, const Eigen::Vector2d& point, doub
   return {piece.start + clamped, std::copysign((point - end).norm(), side)};
 }
 
+/// A bound from below, cheap.
+double Path::least_distance(const Piece& piece, const Eigen::Vector2d& point) {
+  if (piece.bend == 0.0) return std::abs(cross(piece.direction, point - piece.point));
+  const double beyond = (point - piece.centre).norm() - 1.0 / std::abs(piece.bend);
+  return std::abs(beyond);
+}
+
 PathPoint Path::locate(const Eigen::Vector2d& point) const {
   PathPoint best;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
+    if (least_distance(piece, point) >= std::abs(best.across)) continue;
     const bool reaches = endless_ && piece.bend == 0.0;
     const double low = reaches && i == 0 ? -kBeyond : 0.0;
     const double high = reaches && i + 1 == pieces_.size() ? kBeyond : piece.length;

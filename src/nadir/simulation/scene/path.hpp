@@ -52,6 +52,8 @@ class Path {
   static PathPoint locate_on(const Piece& piece, const Eigen::Vector2d& point, double low,
                              double high);
 
+  static double least_distance(const Piece& piece, const Eigen::Vector2d& point);
+
   std::vector<Piece> pieces_;
   double length_ = 0.0;
   bool endless_ = true;

@@ -14,7 +14,7 @@ namespace nadir::simulation {
 namespace {
 
 constexpr double kTile = 3.2;    ///< side of a tile of finest detail, metres
-constexpr int kFinest = 3;       ///< its texels are this many times finer
+constexpr int kFinest = 2;       ///< its texels are this many times finer
 constexpr int kMaximumTaps = 8;  ///< along the long axis of a slanted pixel
 constexpr double kShadowReach = 80.0;
 

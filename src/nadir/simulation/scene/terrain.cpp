@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "nadir/core/error.hpp"
+#include "nadir/simulation/scene/ground_spot.hpp"
 #include "nadir/simulation/scene/texture.hpp"
 #include "nadir/simulation/scene/things.hpp"
 
@@ -36,8 +37,9 @@ void draw_ground(Terrain& terrain) {
         for (int column = left; column < std::min(left + kBlock, width); ++column) {
           const Eigen::Vector2d point =
               terrain.extent.low + texel * Eigen::Vector2d(column + 0.5, row + 0.5);
-          nodes.at(column, row) = static_cast<float>(terrain.height(point, nearby));
-          const GroundSample sample = terrain.sample(point, static_cast<float>(texel), nearby);
+          const GroundSpot spot = terrain.model->locate(point, static_cast<float>(texel), nearby);
+          nodes.at(column, row) = static_cast<float>(terrain.height(spot));
+          const GroundSample sample = terrain.sample(spot, nearby);
           for (int channel = 0; channel < 3; ++channel) {
             terrain.albedo.at(column, row, channel) = encoded(sample.albedo[channel]);
           }
@@ -148,14 +150,18 @@ void add_round(Terrain& terrain) {
 
 }  // namespace
 
-double Terrain::height(const Eigen::Vector2d& point, const Nearby& nearby) const {
-  return draped_surface ? surface_height(*draped_surface, point) : model->height(point, nearby);
+double Terrain::height(const GroundSpot& spot) const {
+  return draped_surface ? surface_height(*draped_surface, spot.point) : model->height(spot);
+}
+
+GroundSample Terrain::sample(const GroundSpot& spot, const Nearby& nearby) const {
+  if (!draped) return model->sample(spot, nearby);
+  return {mosaic_colour(*draped, spot.point), 0.0F};
 }
 
 GroundSample Terrain::sample(const Eigen::Vector2d& point, float footprint,
                              const Nearby& nearby) const {
-  if (!draped) return model->sample(point, footprint, nearby);
-  return {mosaic_colour(*draped, point), 0.0F};
+  return sample(model->locate(point, footprint, nearby), nearby);
 }
 
 std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptions& options) {

@@ -31,8 +31,9 @@ struct Terrain {
   Raster<std::uint8_t> albedo;  ///< as Texture has it; the fourth channel is the share of plants
   std::vector<Solid> solids;
 
-  double height(const Eigen::Vector2d& point, const Nearby& nearby) const;
-  /// The ground as a pixel of width `footprint` sees it, whether painted or draped.
+  /// Whether painted or draped.
+  double height(const GroundSpot& spot) const;
+  GroundSample sample(const GroundSpot& spot, const Nearby& nearby) const;
   GroundSample sample(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace nadir::simulation {
 
@@ -18,21 +19,12 @@ inline float strip_share(float value, float low, float high, float soft) {
          (1.0F - ease_between(high - soft, high + soft, value));
 }
 
-inline std::uint32_t scrambled(std::uint32_t h) {
-  h ^= h >> 16U;
-  h *= 0x7FEB352DU;
-  h ^= h >> 15U;
-  h *= 0x846CA68BU;
-  return h ^ (h >> 16U);
-}
-
 /// Smooth random texture (value noise), a pure function of seed, position and layer: equal at every
-/// zoom and for any order of evaluation, and never repeating within a site.
+/// zoom and for any order of evaluation. A layer repeats after 4096 cells; a sum of turned octaves
+/// repeats nowhere within a site.
 class ValueNoise {
  public:
-  explicit ValueNoise(std::uint64_t seed)
-      : key_(scrambled(static_cast<std::uint32_t>(seed) ^ 0x9E3779B9U) ^
-             scrambled(static_cast<std::uint32_t>(seed >> 32U))) {}
+  explicit ValueNoise(std::uint64_t seed);
 
   /// In [-1, 1], mean 0, with features of the size of `cell` (unit of x and y).
   float at(float x, float y, float cell, std::uint32_t layer) const;
@@ -45,7 +37,12 @@ class ValueNoise {
   float cell_value(std::int32_t column, std::int32_t row, std::uint32_t layer) const;
 
  private:
-  std::uint32_t key_;
+  static constexpr std::uint32_t kSize = 4096;
+  std::uint32_t row_start(std::uint32_t row, std::uint32_t layer) const;
+  float value(std::uint32_t index) const { return values_[index & (kSize - 1U)]; }
+
+  std::vector<float> values_;          ///< in [-1, 1)
+  std::vector<std::uint16_t> starts_;  ///< where in them a row of the lattice begins
 };
 
 }  // namespace nadir::simulation
