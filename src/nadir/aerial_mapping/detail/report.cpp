@@ -237,7 +237,7 @@ Block block_of(const Reconstruction& found) {
   }
   std::vector<Eigen::Vector3d> sure;
   std::vector<Eigen::Vector3d> all;
-  for (const Landmark& landmark : found.model.landmarks) {
+  for (const Landmark& landmark : found.surface.empty() ? found.model.landmarks : found.surface) {
     if (!landmark.valid) continue;
     all.push_back(landmark.position);
     if (landmark.used_count() >= kManyViews) sure.push_back(landmark.position);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "nadir/aerial_mapping/ortho/cells.hpp"
@@ -23,6 +24,7 @@ constexpr double kGroundPixels = 4.0;  // side of a cell of the surface, map pix
 constexpr int kTilePx = 512;
 constexpr std::size_t kImageBudget = 600U << 20U;  // bytes of photos that are held
 constexpr double kSharpness = 0.75;  // photo pixels are shrunk to this share of a map pixel
+constexpr double kLargestHoleM2 = 150.0;
 constexpr double kObliqueRad = 0.17;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -64,6 +66,37 @@ cv::Mat valid_cells(const CellGrid& grid, const cv::Mat& count, const cv::Mat& l
         valid.at<std::uint8_t>(row, column) = 1;
     }
   return valid;
+}
+
+/// Small patches without points that valid cells enclose on all sides (lawn, asphalt, a car that
+/// drove off) are interpolated from around them: valid too where enough views see them.
+void close_holes(const CellGrid& grid, const cv::Mat& count, const cv::Mat& labels, int min_views,
+                 cv::Mat& valid) {
+  cv::Mat open(valid.size(), CV_8U);
+  for (int row = 0; row < valid.rows; ++row)
+    for (int column = 0; column < valid.cols; ++column)
+      open.at<std::uint8_t>(row, column) = valid.at<std::uint8_t>(row, column) == 0 ? 1 : 0;
+  cv::Mat patches;
+  cv::Mat statistics;
+  cv::Mat centres;
+  const int patch_count = cv::connectedComponentsWithStats(open, patches, statistics, centres, 4);
+  for (int patch = 1; patch < patch_count; ++patch) {
+    const cv::Rect box(statistics.at<int>(patch, cv::CC_STAT_LEFT),
+                       statistics.at<int>(patch, cv::CC_STAT_TOP),
+                       statistics.at<int>(patch, cv::CC_STAT_WIDTH),
+                       statistics.at<int>(patch, cv::CC_STAT_HEIGHT));
+    const double area =
+        statistics.at<int>(patch, cv::CC_STAT_AREA) * grid.geo.resolution * grid.geo.resolution;
+    const bool at_border = box.x == 0 || box.y == 0 || box.x + box.width == valid.cols ||
+                           box.y + box.height == valid.rows;
+    if (at_border || area > kLargestHoleM2) continue;
+    for (int row = box.y; row < box.y + box.height; ++row)
+      for (int column = box.x; column < box.x + box.width; ++column)
+        if (patches.at<int>(row, column) == patch &&
+            labels.at<std::uint16_t>(row, column) != kNoView &&
+            count.at<std::uint8_t>(row, column) >= min_views)
+          valid.at<std::uint8_t>(row, column) = 1;
+  }
 }
 
 /// The part of the grid that holds anything; the whole where nothing does.
@@ -217,7 +250,8 @@ void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, c
   const cv::Mat labels =
       choose_views(cells, block.views, grid, options.blend == BlendKind::kMultiBand);
   const cv::Mat count = count_views(cells, grid);
-  const cv::Mat valid = valid_cells(grid, count, labels, ground, block.views, options);
+  cv::Mat valid = valid_cells(grid, count, labels, ground, block.views, options);
+  close_holes(grid, count, labels, options.min_views, valid);
   cv::Mat quality(grid.height, grid.width, CV_32F, cv::Scalar(0));
   for (int row = 0; row < grid.height; ++row)
     for (int column = 0; column < grid.width; ++column)

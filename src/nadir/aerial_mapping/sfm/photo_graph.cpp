@@ -94,11 +94,8 @@ void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share
 
 std::vector<PhotoFeatures> PhotoGraph::features(const PhotoSet& set) const {
   std::vector<PhotoFeatures> features;
-  for (const MappingPhoto& photo : set.photos) {
-    PhotoFeatures points;  // without descriptors: they are only for matching
-    points.points = photos_.at(photo.name).features.points;
-    features.push_back(std::move(points));
-  }
+  for (const MappingPhoto& photo : set.photos)
+    features.push_back(photos_.at(photo.name).features);  // the descriptors are shared
   return features;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "nadir/aerial_mapping/sfm/control.hpp"
+#include "nadir/aerial_mapping/sfm/guided.hpp"
 #include "nadir/aerial_mapping/sfm/pairs.hpp"
 #include "nadir/aerial_mapping/sfm/pose_start.hpp"
 #include "nadir/aerial_mapping/sfm/resection.hpp"
@@ -18,7 +19,9 @@ namespace {
 
 constexpr double kFlatness = 0.04;       // relief of the first round, in flying heights
 constexpr int kFewestObservations = 15;  // that hold a photo
-constexpr double kNarrow = 0.15;         // width of a strip in lengths
+constexpr std::size_t kFewestForGuidance = 50;
+constexpr double kGuidanceMargin = 0.05;  // of the flying height
+constexpr double kNarrow = 0.15;          // width of a strip in lengths
 constexpr double kNadirSigmaDeg = 10.0;
 
 double median_height(const Model& model, double ground) {
@@ -50,6 +53,18 @@ void update_ground(const Model& model, AdjustmentState& state) {
       ++count;
     }
   if (count > 0) state.ground = sum / count;
+}
+
+std::vector<Landmark> landmarks_of(const std::vector<PhotoFeatures>& features,
+                                   const std::vector<VerifiedPair>& pairs) {
+  std::vector<Landmark> landmarks;
+  for (Track& track : build_tracks(features, pairs)) {
+    Landmark landmark;
+    landmark.used.assign(track.size(), 0);
+    landmark.track = std::move(track);
+    landmarks.push_back(std::move(landmark));
+  }
+  return landmarks;
 }
 
 /// One reconstruction in the making.
@@ -112,6 +127,7 @@ class Reconstructor {
       round(2.0, 30);
     }
     triangulate(model(), {options_.refine_given_poses ? 1.5 : 3.0, 1.0, 2});
+    densify();
     result_.scale_source = ScaleSource::kGivenPoses;
     return std::move(result_);
   }
@@ -186,6 +202,27 @@ class Reconstructor {
     }
   }
 
+  /// Matches once more where the poses say that partners must lie. What is found so is no evidence
+  /// for the poses, and has no part in the adjustment.
+  void densify() {
+    std::vector<double> heights;
+    for (const Landmark& landmark : model().landmarks)
+      if (landmark.valid) heights.push_back(landmark.position.z());
+    if (heights.size() < kFewestForGuidance) return;
+    std::sort(heights.begin(), heights.end());
+    const double margin = kGuidanceMargin * median_height(model(), state().ground);
+    const double lowest = heights[heights.size() / 100] - margin;
+    const double highest = heights[heights.size() - 1 - heights.size() / 100] + margin;
+    std::vector<VerifiedPair> pairs;
+    for (const VerifiedPair& pair : pairs_)
+      if (pair.support() >= options_.min_pair_inliers) pairs.push_back(pair);
+    rematch(model(), features_, lowest, highest, pairs);
+    Model dense = model();
+    dense.landmarks = landmarks_of(features_, pairs);
+    triangulate(dense, {1.5, 2.0, 2});
+    result_.surface = std::move(dense.landmarks);
+  }
+
   void drop_lost() {
     triangulate(model(), {1.5, 1.0, 2});
     const std::vector<int> count = observations_of(model());
@@ -217,6 +254,7 @@ class Reconstructor {
     update_ground(model(), state());
     set_scale();
     say_uncertainty();
+    densify();
   }
 
   void set_scale() {
@@ -316,12 +354,7 @@ Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& feature
   std::vector<VerifiedPair> links;
   for (const VerifiedPair& pair : pairs)
     if (pair.support() >= min_inliers) links.push_back(pair);
-  for (Track& track : build_tracks(features, links)) {
-    Landmark landmark;
-    landmark.used.assign(track.size(), 0);
-    landmark.track = std::move(track);
-    model.landmarks.push_back(std::move(landmark));
-  }
+  model.landmarks = landmarks_of(features, links);
   return model;
 }
 

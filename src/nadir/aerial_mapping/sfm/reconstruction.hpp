@@ -16,6 +16,8 @@ namespace nadir::aerial {
 /// Poses and points of the largest group of photos, and what can be said about them.
 struct Reconstruction {
   Model model;
+  /// Points for the surface: more than the adjustment trusts (sfm/guided.hpp).
+  std::vector<Landmark> surface;
   AdjustmentState state;
   std::vector<std::vector<std::size_t>> components;  ///< the first is the one that is mapped
   ScaleSource scale_source = ScaleSource::kNone;

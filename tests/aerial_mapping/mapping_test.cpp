@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/aerial_mapping/mapping.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+
+#include "aerial_mapping/flight.hpp"
+#include "nadir/core/error.hpp"
+
+namespace nadir {
+namespace {
+
+using test::compare;
+using test::Flight;
+using test::FlightErrors;
+using test::FlightPlan;
+using test::fly;
+using test::MapError;
+using test::Terrain;
+
+AerialMappingOptions quick_options() {
+  AerialMappingOptions options;
+  options.features_per_photo = 1500;
+  options.gps_sigma_m = 0.5;
+  return options;
+}
+
+const std::shared_ptr<const Terrain>& terrain() {
+  static const std::shared_ptr<const Terrain> shared = std::make_shared<const Terrain>();
+  return shared;
+}
+
+const Flight& usual_flight() {
+  static const Flight flight = [] {
+    FlightErrors errors;
+    errors.gps_bias = {1.7, -2.3, 1.0};
+    return fly(terrain(), {}, errors);
+  }();
+  return flight;
+}
+
+bool same(const AerialMap& a, const AerialMap& b) {
+  return a.ortho.image == b.ortho.image && a.ortho.valid == b.ortho.valid &&
+         a.ortho.geo == b.ortho.geo && a.view_count == b.view_count && a.quality == b.quality;
+}
+
+class Mapping : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!can_solve_poses()) GTEST_SKIP() << "built without NADIR_WITH_SFM";
+  }
+};
+
+TEST_F(Mapping, FindsTheGroundToATenthOfAMetreAndKeepsTheBiasOfTheGps) {
+  const Flight& flight = usual_flight();
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.registered, 12);
+  EXPECT_EQ(map.report.components.size(), 1U);
+  EXPECT_EQ(map.report.scale_source, ScaleSource::kPositions);
+  const MapError error = compare(flight, map);
+  EXPECT_GT(error.pixels, 5000);
+  testing::Test::RecordProperty("relative_rms_mm", static_cast<int>(error.relative_rms_m * 1e3));
+  EXPECT_LT(error.relative_rms_m, 0.10);
+  // GPS noise of 0.2 m over this block leaves 0.3 per cent (one sigma).
+  EXPECT_LT(std::abs(error.scale_error), 0.01);
+  // The tilt of the block, known to 0.3 degrees by gimbals and heights, moves the ground by 0.2 m.
+  EXPECT_NEAR(error.shift_m.x(), 1.7, 0.5);
+  EXPECT_NEAR(error.shift_m.y(), -2.3, 0.5);
+  EXPECT_LT(error.height_rms_m, 0.3);
+  EXPECT_NEAR(map.report.ground_below_camera_m, 40.0, 2.0);
+}
+
+TEST_F(Mapping, ControlPointsMakeItAbsolute) {
+  Flight flight = usual_flight();
+  const std::array<Eigen::Vector2d, 4> places{{{-22, -16}, {21, -15}, {20, 17}, {-21, 15}}};
+  for (const Eigen::Vector2d& place : places) {
+    GroundControlPoint point;
+    point.name = "gcp" + std::to_string(flight.set.control_points.size());
+    point.position = {place.x(), place.y(), terrain()->height(place.x(), place.y())};
+    for (std::size_t i = 0; i < flight.truth.size(); ++i) {
+      const auto pixel =
+          flight.camera.project((flight.truth[i].inverse() * point.position).vector());
+      if (pixel && pixel->x() > 3 && pixel->y() > 3 && pixel->x() < 476 && pixel->y() < 356)
+        point.marks.push_back({flight.set.photos[i].name, pixel->x(), pixel->y()});
+    }
+    ASSERT_GE(point.marks.size(), 2U);
+    flight.set.control_points.push_back(point);
+  }
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.scale_source, ScaleSource::kControlPoints);
+  const MapError error = compare(flight, map);
+  EXPECT_LT(error.absolute_rms_m, 0.10);
+  EXPECT_LT(std::abs(error.scale_error), 0.003);
+  for (const ControlPointReport& point : map.report.control_points) {
+    EXPECT_FALSE(point.outlier) << point.name;
+    EXPECT_LT(std::hypot(point.residual_m[0], point.residual_m[1]), 0.1) << point.name;
+  }
+}
+
+TEST_F(Mapping, AWrongFocalLengthBendsNothing) {
+  for (const double factor : {0.85, 1.15}) {
+    FlightErrors errors;
+    errors.focal_factor = factor;
+    errors.focal_sigma = 0.15;
+    const Flight flight = fly(terrain(), {}, errors);
+    const AerialMap map = map_photos(flight.set, quick_options());
+    const MapError error = compare(flight, map);
+    EXPECT_EQ(map.report.registered, 12) << factor;
+    EXPECT_LT(error.relative_rms_m, 0.15) << factor;
+    EXPECT_LT(std::abs(error.bowl_m), 0.6) << factor;
+    EXPECT_LT(std::abs(error.scale_error), 0.012) << factor;
+  }
+}
+
+TEST_F(Mapping, OrderOfPhotosAndNumberOfThreadsDoNotMatter) {
+  FlightPlan plan;
+  plan.strips = 2;
+  plan.photos = 3;
+  const Flight flight = fly(terrain(), plan, {});
+  PhotoSet turned = flight.set;
+  std::reverse(turned.photos.begin(), turned.photos.end());
+  std::swap(turned.photos[1], turned.photos[4]);
+  const AerialMap map = [&] {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    return map_photos(flight.set, quick_options());
+  }();
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
+  EXPECT_TRUE(same(map, map_photos(turned, quick_options())));
+}
+
+TEST_F(Mapping, WithoutPositionsTheGivenPixelSizeIsTheScale) {
+  FlightErrors errors;
+  errors.tilt_deg = 8.0;
+  Flight flight = fly(terrain(), {}, errors);
+  for (MappingPhoto& photo : flight.set.photos) {
+    photo.prior.position.reset();
+    photo.prior.attitude.reset();
+    photo.prior.relative_altitude_m.reset();
+  }
+  AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.registered, 12);
+  EXPECT_EQ(map.report.scale_source, ScaleSource::kNone);
+  EXPECT_FALSE(map.report.warnings.empty());
+  flight.set.metres_per_photo_pixel = 40.0 / 400.0;
+  map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.scale_source, ScaleSource::kPhotoPixelSize);
+  const MapError error = compare(flight, map);
+  EXPECT_LT(error.relative_rms_m, 0.3);
+  EXPECT_LT(std::abs(error.scale_error), 0.03);
+}
+
+TEST_F(Mapping, HalvesThatDoNotMeetAreNamed) {
+  FlightPlan plan;
+  plan.strips = 2;
+  plan.photos = 3;
+  plan.middle = {-35.0, -20.0};
+  Flight flight = fly(terrain(), plan, {});
+  plan.middle = {38.0, 20.0};
+  plan.photos = 2;
+  plan.prefix = "q";
+  const Flight other = fly(terrain(), plan, {});
+  flight.set.photos.insert(flight.set.photos.end(), other.set.photos.begin(),
+                           other.set.photos.end());
+  const AerialMap map = map_photos(flight.set, quick_options());
+  ASSERT_EQ(map.report.components.size(), 2U);
+  EXPECT_EQ(map.report.components[0].size(), 6U);
+  EXPECT_EQ(map.report.components[0][0], "p100.jpg");
+  EXPECT_EQ(map.report.components[1].size(), 4U);
+  EXPECT_EQ(map.report.registered, 6);
+  const auto& warnings = map.report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return text.find("4 of 10 photos do not join") != std::string::npos &&
+           text.find("q100.jpg") != std::string::npos;
+  }));
+}
+
+TEST_F(Mapping, WaterIsNoGroundAndPhotosOfItAloneDoNotJoin) {
+  auto wet = std::make_shared<Terrain>(1, 0.5);
+  wet->add_pond(0.0, 0.0, 14.0);
+  const Flight flight = fly(wet, {}, {});
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_GE(map.report.registered, 10);
+  const PixelCoordinate middle = map.ortho.geo.pixel_at(0.0, 0.0);
+  EXPECT_EQ(map.ortho.valid.at(static_cast<int>(middle.column), static_cast<int>(middle.row)), 0)
+      << "a pixel 14 m from the nearest point must not be called valid";
+  EXPECT_LT(compare(flight, map).relative_rms_m, 0.15);
+}
+
+TEST_F(Mapping, OneStripIsHeldByItsGimbal) {
+  FlightPlan plan;
+  plan.strips = 1;
+  plan.photos = 5;
+  FlightErrors errors;
+  errors.gimbal_sigma_deg = 0.2;
+  const Flight flight = fly(terrain(), plan, errors);
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.registered, 5);
+  EXPECT_LT(compare(flight, map).relative_rms_m, 0.25);
+}
+
+TEST_F(Mapping, GivenPosesAreTakenAsTheyAre) {
+  Flight flight = usual_flight();
+  for (std::size_t i = 0; i < flight.set.photos.size(); ++i)
+    flight.set.photos[i].pose =
+        PhotoPose{flight.set.photos[i].name, flight.camera, flight.truth[i]};
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_EQ(map.report.scale_source, ScaleSource::kGivenPoses);
+  const MapError error = compare(flight, map);
+  EXPECT_LT(error.absolute_rms_m, 0.05);
+  // The colours too: what the map shows is what the ground is painted with.
+  double sum = 0.0;
+  int count = 0;
+  for (int row = 0; row < map.ortho.height(); row += 3)
+    for (int column = 0; column < map.ortho.width(); column += 3) {
+      if (map.ortho.valid.at(column, row) == 0) continue;
+      const double green = map.ortho.image.at(column, row, 1);
+      sum += std::abs(green - terrain()->colour(map.ortho.geo.x_at(column + 0.5),
+                                                map.ortho.geo.y_at(row + 0.5))[1]);
+      ++count;
+    }
+  EXPECT_LT(sum / count, 12.0) << "grey levels, mean";
+}
+
+TEST_F(Mapping, ContradictionsAreRefused) {
+  PhotoSet set = usual_flight().set;
+  set.photos[1].name = set.photos[0].name;
+  EXPECT_THROW(map_photos(set, quick_options()), Error);
+  set = usual_flight().set;
+  set.photos[0].camera = 3;
+  EXPECT_THROW(map_photos(set, quick_options()), Error);
+  set.photos.resize(1);
+  EXPECT_THROW(map_photos(set, quick_options()), Error);
+  set = usual_flight().set;
+  set.cameras[0].width = 481;
+  try {
+    map_photos(set, quick_options());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(error.what()).find("480 x 360"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace nadir
