@@ -23,7 +23,7 @@ bench: build  ## run the benchmarks: build/release/bin/*_bench
 	set -e; for program in build/release/bin/*_bench; do echo "== $$program"; $$program; done
 
 format: deps-quality  ## format every C++ file in place
-	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+	git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format -i
 
 tidy: build deps-quality  ## run clang-tidy over the library
 	tools/tidy.py -j $(JOBS)

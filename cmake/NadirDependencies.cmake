@@ -52,6 +52,8 @@ target_link_libraries(nadir_pocketfft INTERFACE Threads::Threads)
 # told that there is no such function, it aligns by itself.
 target_compile_definitions(nadir_pocketfft INTERFACE _LIBCPP_HAS_NO_ALIGNED_ALLOCATION)
 
+include(NadirCuda)  # optional: NADIR_CUDA
+
 # A project that takes nadir by add_subdirectory links our libraries from its own folders, where
 # imported targets of ours would otherwise be unknown.
 get_property(nadir_third_parties DIRECTORY PROPERTY IMPORTED_TARGETS)

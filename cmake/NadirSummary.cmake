@@ -11,6 +11,7 @@ message(STATUS "nadir ${PROJECT_VERSION} (${CMAKE_BUILD_TYPE}, "
 message(STATUS "  libraries    ${nadir_libraries}")
 message(STATUS "  GDAL ${GDAL_VERSION}, OpenSSL ${OPENSSL_VERSION}, Eigen ${Eigen3_VERSION}, "
                "oneTBB ${TBB_VERSION}, pocketfft in ${POCKETFFT_INCLUDE_DIR}")
+message(STATUS "  CUDA backend ${NADIR_CUDA_STATUS}")
 # Every switch of the project, so that a new one shows up here by itself.
 get_cmake_property(nadir_cache CACHE_VARIABLES)
 list(FILTER nadir_cache INCLUDE REGEX "^NADIR_(BUILD|WITH|INSTALL|WARNINGS)")

@@ -4,14 +4,17 @@
 add_library(nadir_build_flags INTERFACE)
 target_compile_features(nadir_build_flags INTERFACE cxx_std_20)
 target_compile_options(nadir_build_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual
+  "$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wsign-conversion>"
+  "$<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast;-Wnon-virtual-dtor;-Woverloaded-virtual>"
   # a*b+c must round the same way in every build, or the same seed gives other bytes
-  -ffp-contract=off
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
+  # and on the GPU as on the CPU, where the tests run its kernels
+  $<$<COMPILE_LANGUAGE:CUDA>:-fmad=false>
+  "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Xcompiler -Wall,-Wextra>"
   # g++ 12 sees overlaps where std::string has none (GCC bug 105651)
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 if(NADIR_WARNINGS_AS_ERRORS)
-  target_compile_options(nadir_build_flags INTERFACE -Werror)
+  target_compile_options(nadir_build_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 
 # nadir_add_library(NAME SOURCES file... [PUBLIC target...] [PRIVATE target...])

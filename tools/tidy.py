@@ -34,7 +34,7 @@ def commands_of(build):
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         source = pathlib.Path(entry["file"]).resolve()
-        if not any(source.is_relative_to(ROOT / folder) for folder in FOLDERS):
+        if source.suffix != ".cpp" or not any(source.is_relative_to(ROOT / folder) for folder in FOLDERS):
             continue
         arguments = shlex.split(entry["command"])
         if pathlib.Path(arguments[0]).name == "ccache":

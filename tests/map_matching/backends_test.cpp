@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every fast path against the reference, on random images, masks, sizes, offsets and headings.
+// Every fast path of every backend against the reference, on random images, masks, sizes, offsets
+// and headings. The backend `cuda` runs where there is a GPU, its kernels on the CPU everywhere.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <tuple>
 
+#include "map_matching/emulated_device.hpp"
 #include "map_matching/random_maps.hpp"
+#include "nadir/map_matching/cuda/backend.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
 #include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
@@ -41,14 +45,37 @@ const Variant kVariants[] = {
     {.score = Score::kZwncc, .channel = Channel::kHighPass, .name = "zwncc_high_pass"},
 };
 
-class BackendsTest : public testing::TestWithParam<Variant> {
+enum class Tested { kCpu, kCudaKernelsOnCpu, kCuda };
+
+const MatchingBackend& backend_of(Tested tested) {
+  static const cuda::DeviceBackend emulated(
+      [] { return std::make_unique<test::EmulatedDevice>(); });
+  switch (tested) {
+    case Tested::kCudaKernelsOnCpu:
+      return emulated;
+    case Tested::kCuda:
+      return cuda_backend();
+    case Tested::kCpu:
+      break;
+  }
+  return cpu_backend();
+}
+
+class BackendsTest : public testing::TestWithParam<std::tuple<Variant, Tested>> {
  protected:
+  void SetUp() override {
+    if (std::get<1>(GetParam()) != Tested::kCuda) return;
+    static const CudaStatus status = cuda_status();
+    if (!status.usable) GTEST_SKIP() << "no CUDA: " << status.detail;
+  }
+  static const Variant& variant() { return std::get<0>(GetParam()); }
+  static const MatchingBackend& tested() { return backend_of(std::get<1>(GetParam())); }
   static MatchingOptions options(double min_valid_weight = 0.5) {
     MatchingOptions options;
-    options.score = GetParam().score;
-    options.holes = GetParam().holes;
-    options.paper_weight = GetParam().weight;
-    options.channel = GetParam().channel;
+    options.score = variant().score;
+    options.holes = variant().holes;
+    options.paper_weight = variant().weight;
+    options.channel = variant().channel;
     options.min_valid_weight = min_valid_weight;
     return options;
   }
@@ -84,7 +111,7 @@ TEST_P(BackendsTest, SurfacesEqualTheReference) {
     }
     // The window reaches beyond the map on all sides.
     const PixelWindow window{draw(10, -12, 8), draw(11, -12, 8), draw(12, 1, 60), draw(13, 1, 60)};
-    const auto fast = cpu_backend().score_surfaces(map, templates, window);
+    const auto fast = tested().score_surfaces(map, templates, window);
     const auto slow = reference_backend().score_surfaces(map, templates, window);
     ASSERT_EQ(fast.size(), slow.size());
     for (std::size_t k = 0; k < fast.size(); ++k) {
@@ -97,7 +124,7 @@ TEST_P(BackendsTest, SurfacesEqualTheReference) {
           ASSERT_NEAR(fast[k].valid_weight.at(column, row), share, 1e-4) << where;
           if (borderline(share, 0.5)) continue;
           expect_same(fast[k].score.at(column, row), slow[k].score.at(column, row),
-                      GetParam().tolerance, where);
+                      variant().tolerance, where);
         }
       }
     }
@@ -117,7 +144,7 @@ TEST_P(BackendsTest, PosesEqualTheReference) {
   }
   poses.push_back({0.0, 0.0, 0.0});
   poses.push_back({1e300, -1e300, 1.0});
-  const auto fast = cpu_backend().score_poses(map, local, poses);
+  const auto fast = tested().score_poses(map, local, poses);
   const auto slow = reference_backend().score_poses(
       map, local, std::span<const Pose2>(poses).first(poses.size() - 1));
   int defined = 0;
@@ -126,15 +153,25 @@ TEST_P(BackendsTest, PosesEqualTheReference) {
     // A sample on the very edge of a hole may fall on either side in single precision.
     if (std::abs(fast[i].valid_weight - slow[i].valid_weight) > 1e-4) continue;
     if (borderline(slow[i].valid_weight, 0.5)) continue;
-    expect_same(fast[i].score, slow[i].score, 10 * GetParam().tolerance, std::to_string(i));
+    expect_same(fast[i].score, slow[i].score, 10 * variant().tolerance, std::to_string(i));
     defined += std::isnan(slow[i].score) ? 0 : 1;
   }
   EXPECT_GT(defined, 50);
   EXPECT_TRUE(std::isnan(fast.back().score));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scores, BackendsTest, testing::ValuesIn(kVariants),
-                         [](const auto& variant) { return variant.param.name; });
+std::string name_of(const testing::TestParamInfo<std::tuple<Variant, Tested>>& info) {
+  return std::get<0>(info.param).name;
+}
+const auto kEveryVariant = testing::ValuesIn(kVariants);
+INSTANTIATE_TEST_SUITE_P(Cpu, BackendsTest,
+                         testing::Combine(kEveryVariant, testing::Values(Tested::kCpu)), name_of);
+INSTANTIATE_TEST_SUITE_P(CudaKernelsOnCpu, BackendsTest,
+                         testing::Combine(kEveryVariant,
+                                          testing::Values(Tested::kCudaKernelsOnCpu)),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Cuda, BackendsTest,
+                         testing::Combine(kEveryVariant, testing::Values(Tested::kCuda)), name_of);
 
 }  // namespace
 }  // namespace nadir
