@@ -64,6 +64,7 @@ int run(const DemoOptions& options, const Invocation& invocation) {
     if (invocation.common.json) print(Json{{"dry_run", true}, {"output", options.output.string()}});
     return 0;
   }
+  note_device(invocation.common);
   const Stopwatch stopwatch;
   OutputFolder output(options.output, invocation.common, {});
   write_demo_site(output.staging() / "site", invocation.common.seed);

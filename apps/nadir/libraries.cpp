@@ -10,6 +10,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "nadir/io/gdal_info.hpp"
+#include "nadir/map_matching/cuda_status.hpp"
 #include "text_table.hpp"
 
 namespace nadir::cli {
@@ -17,7 +18,7 @@ namespace nadir::cli {
 std::string program_version() { return NADIR_VERSION; }
 
 std::vector<Library> libraries() {
-  return {
+  std::vector<Library> libraries{
       {"Eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
        "MPL-2.0"},
@@ -36,6 +37,9 @@ std::vector<Library> libraries() {
        fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100),
        "MIT"},
   };
+  const std::string cuda = cuda_version();
+  if (!cuda.empty()) libraries.push_back({"CUDA", cuda, "NVIDIA EULA"});
+  return libraries;
 }
 
 std::string version_text() {

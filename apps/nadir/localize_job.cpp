@@ -19,6 +19,7 @@
 #include "run_files.hpp"
 #include "site.hpp"
 #include "stopwatch.hpp"
+#include "threads.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -151,6 +152,7 @@ void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
 }
 
 int LocalizeJob::run() {
+  note_device(invocation_.common);
   const Stopwatch stopwatch;
   OutputFolder output(options_.run, invocation_.common, inputs());
   const Orthomosaic map = read_orthomosaic(map_file_);

@@ -87,6 +87,7 @@ int run(const MatchVerbOptions& options, const Invocation& invocation) {
   }
 
   OutputFolder output(options.output, common, inputs);
+  note_device(common);
   const Stopwatch stopwatch;
   const auto matches = match_all(options, scene, effective.values().matching, output.staging());
   const Json document = to_json(matches, scene);

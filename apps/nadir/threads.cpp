@@ -44,14 +44,19 @@ ThreadLimit::ThreadLimit(const CommonOptions& common)
       control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)) {}
 
 void require_device(const CommonOptions& common) {
-  if (common.device == "cpu") return;
+  if (common.device != "cuda") return;
   const CudaStatus status = cuda_status();
   if (status.usable) return;
-  if (common.device == "cuda") {
-    throw Error(ErrorKind::kUsage, "CUDA cannot be used: " + status.detail, "--device cuda",
-                "use --device cpu or auto");
+  throw Error(ErrorKind::kUsage, "CUDA cannot be used: " + status.detail, "--device cuda",
+              "use --device cpu or auto");
+}
+
+void note_device(const CommonOptions& common) {
+  if (common.device != "auto") return;
+  const CudaStatus status = cuda_status();
+  if (status.built && !status.usable) {
+    print_note("computing on the CPU: " + status.detail, common.quiet);
   }
-  if (status.built) print_note("computing on the CPU: " + status.detail, common.quiet);
 }
 
 }  // namespace nadir::cli

@@ -21,8 +21,10 @@ class ThreadLimit {
   tbb::global_control control_;
 };
 
-/// Throws Error (usage) where `--device` asks for a device that cannot be used here. Where `auto`
-/// falls back from the GPU that this build could use, a note says why.
+/// Throws Error (usage) where `--device` asks for a device that cannot be used here.
 void require_device(const CommonOptions& common);
+/// Says why, where `--device auto` falls back from the GPU that this build could use. To be called
+/// when the computing begins: what is refused before says its error alone.
+void note_device(const CommonOptions& common);
 
 }  // namespace nadir::cli

@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
     std::printf("nothing measured: CUDA cannot be used here: %s\n", status.detail.c_str());
     return 0;
   }
-  std::printf("%s; CUDA %s\n", status.detail.c_str(), status.version.c_str());
+  std::printf("%s; CUDA %s\n", status.detail.c_str(), cuda_version().c_str());
   run(make_bench(*gpu, {}, cuda::gpu_copy_bytes_per_s()));
   return 0;
 }

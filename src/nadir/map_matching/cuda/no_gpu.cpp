@@ -14,6 +14,8 @@ const MatchingBackend& cuda_backend() {
 
 double cuda::gpu_copy_bytes_per_s() { return 0.0; }
 
-CudaStatus cuda_status() { return {false, false, "not part of this build", {}}; }
+std::string cuda_version() { return {}; }
+
+CudaStatus cuda_status() { return {false, false, "not part of this build"}; }
 
 }  // namespace nadir

@@ -12,8 +12,10 @@ const MatchingBackend& cuda_backend() {
   return backend;
 }
 
+std::string cuda_version() { return cuda::gpu_library_version(); }
+
 CudaStatus cuda_status() {
-  CudaStatus status{true, false, cuda::why_no_gpu(), cuda::gpu_library_version()};
+  CudaStatus status{true, false, cuda::why_no_gpu()};
   if (!status.detail.empty()) return status;
   try {
     const std::string fault = cuda::self_test(cuda_backend());
