@@ -204,6 +204,20 @@ std::vector<StampedOdomPose3> SimulatedDrive::odometry() const {
   return odometry;
 }
 
+/// The cars under way, but for those that would run into the robot.
+simulation::Movers SimulatedDrive::traffic(int frame) const {
+  constexpr double kClear = 9.0;
+  simulation::Movers movers =
+      scene_.scene().traffic(static_cast<double>(stamp(frame).nanoseconds - kStart) * 1e-9);
+  const Pose2 robot = planar(map_from_robot(frame));
+  std::erase_if(movers.things, [&](const simulation::Movers::Thing& thing) {
+    const Eigen::Vector3d centre = thing.box.center();
+    const auto at = robot.inverse() * Point2<frames::Map>{centre.x(), centre.y()};
+    return std::abs(at.x) < kClear && std::abs(at.y) < 2.5;
+  });
+  return movers;
+}
+
 Raster<std::uint8_t> SimulatedDrive::camera_image(
     int frame, const simulation::CameraRays& rays,
     const Transform3<frames::Map, frames::Camera>& pose, std::uint64_t stream) const {
@@ -235,10 +249,11 @@ LidarFrame SimulatedDrive::lidar(int frame) const {
   const int next = std::min(frame + 1, size() - 1);
   const simulation::Sweep sweep{map_from_robot(frame), map_from_robot(next),
                                 std::max(1e-3, (stamp(next).seconds() - stamp(frame).seconds()))};
+  const simulation::Movers movers = traffic(frame);
   LidarFrame scan;
   scan.stamp = stamp(frame);
   scan.points = simulation::scan(scene_.scene(), sweep, lidar_rig_, lidar_options_, seed_,
-                                 kScanNoise + index_of(frame));
+                                 kScanNoise + index_of(frame), movers);
   for (const MountedCamera& camera : lidar_rig_.cameras) {
     const auto pose = map_from_robot(frame) * camera.robot_from_camera;
     scan.images.push_back(camera_image(frame, *rays_, pose, kLeftNoise + index_of(frame)));
@@ -249,10 +264,8 @@ LidarFrame SimulatedDrive::lidar(int frame) const {
 Frame SimulatedDrive::true_local(int frame, const LocalTruthOptions& options) const {
   std::vector<MapFromRobot> seen_from;
   if (options.only_seen) {
-    // One place every metre and a half, back over the size of the map.
-    const int stride = std::max(1, static_cast<int>(1.5 / route_options_.step_m));
     const int reach = static_cast<int>(options.size_m / route_options_.step_m);
-    for (int past = frame; past >= std::max(0, frame - reach); past -= stride) {
+    for (int past = frame; past >= std::max(0, frame - reach); --past) {
       seen_from.push_back(map_from_robot(past));
     }
   }

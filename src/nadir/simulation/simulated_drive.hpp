@@ -14,7 +14,8 @@ namespace nadir {
 
 namespace simulation {
 class CameraRays;
-}
+struct Movers;
+}  // namespace simulation
 
 /// How a robot drives, and how good its odometry is.
 struct RouteOptions {
@@ -107,6 +108,7 @@ class SimulatedDrive {
  private:
   void drive(const SimulatedWorld& world, const std::vector<Pose2>& route);
   void measure_odometry();
+  simulation::Movers traffic(int frame) const;
   Transform3<frames::Map, frames::Robot> settled(const SimulatedWorld& world, const Pose2& pose,
                                                  int frame) const;
   Raster<std::uint8_t> camera_image(int frame, const simulation::CameraRays& rays,

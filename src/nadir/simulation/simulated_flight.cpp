@@ -188,12 +188,18 @@ PhotoMetadata SimulatedFlight::metadata(int photo) const {
 Photo SimulatedFlight::render(int photo) const {
   const PhotoPose pose = truth(photo);
   const Eigen::Vector3d speed = velocity(photo);
-  const Raster<float> linear = simulation::view(scene_.scene(), *rays_, [&](int row) {
-    simulation::CameraPose at = pose.map_from_camera;
-    const double share = (row + 0.5) / plan_.camera.height - 0.5;
-    at.translation += share * options_.readout_s * speed;
-    return at;
-  });
+  const Stamp stamp = plan_.waypoints[static_cast<std::size_t>(photo)].stamp;
+  const simulation::Movers movers =
+      scene_.scene().traffic(static_cast<double>(stamp.nanoseconds - kTakeOff) * 1e-9);
+  const Raster<float> linear = simulation::view(
+      scene_.scene(), *rays_,
+      [&](int row) {
+        simulation::CameraPose at = pose.map_from_camera;
+        const double share = (row + 0.5) / plan_.camera.height - 0.5;
+        at.translation += share * options_.readout_s * speed;
+        return at;
+      },
+      &movers);
   const RandomStream random(seed_, kExposures);
   const auto [exposure, red] = random.normal_pair(2 * index_of(photo));
   const double blue = random.normal(2 * index_of(photo) + 1);

@@ -37,7 +37,7 @@ struct Appearance {
   double sun_elevation_deg = 52.0;
   double dryness = 0.15;           ///< tint of all plants: 0 = fresh, 1 = straw
   double car_share = 0.6;          ///< of the parking places that are taken
-  double traffic_share = 0.25;     ///< of the places on the lanes where a car passes
+  double cars_per_km = 25.0;       ///< of street, under way: they move, and no truth shows them
   std::uint64_t traffic_seed = 1;  ///< which places, and by which cars
 };
 

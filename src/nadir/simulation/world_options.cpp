@@ -51,8 +51,8 @@ void declare(OptionTable& table, const std::string& name, Appearance& appearance
                "Tint of all plants: 0 = fresh green, 1 = straw.");
   table.number(part + "car_share", appearance.car_share, {0.0, 1.0},
                "Share of the parking places that are taken.");
-  table.number(part + "traffic_share", appearance.traffic_share, {0.0, 1.0},
-               "Share of the places on the lanes where a car passes.");
+  table.number(part + "cars_per_km", appearance.cars_per_km, {0.0, 200.0},
+               "Cars under way on a kilometre of street, both directions together.");
 }
 
 void check(WorldOptions& options) {

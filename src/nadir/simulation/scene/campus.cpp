@@ -95,7 +95,6 @@ Layout lay_out_campus(std::uint64_t seed, double width_m, double depth_m) {
   plan.add_street_furniture();
   plan.add_trees(90, 1.3, 3.4);
   plan.add_parking_stalls(0.3);
-  plan.add_traffic_stalls();
   return plan.layout;
 }
 

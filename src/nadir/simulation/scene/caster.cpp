@@ -90,6 +90,31 @@ bool Caster::is_inside(const Eigen::Vector3d& point) const {
   });
 }
 
+void Movers::add(std::vector<Solid> solids) {
+  Thing thing;
+  for (const Solid& solid : solids) thing.box.extend(solid.box);
+  thing.solids = std::move(solids);
+  things.push_back(std::move(thing));
+}
+
+void Caster::meet_movers(const Movers& movers, const Eigen::Vector3d& origin,
+                         const Eigen::Vector3d& direction, double from, RayHit& best) const {
+  const Eigen::Vector3d inverse = inverse_of(direction);
+  auto index = static_cast<int>(solids_.size());
+  for (const Movers::Thing& thing : movers.things) {
+    if (passes(thing.box, origin, inverse, from, best.t)) {
+      for (std::size_t i = 0; i < thing.solids.size(); ++i) {
+        const Solid& solid = thing.solids[i];
+        const auto hit = solid.meet(origin, direction, from, best.t, noise_);
+        if (hit) {
+          best = {hit->t, index + static_cast<int>(i), &solid, hit->normal, hit->material};
+        }
+      }
+    }
+    index += static_cast<int>(thing.solids.size());
+  }
+}
+
 void Caster::meet_solids(const Cell& cell, const Eigen::Vector3d& origin,
                          const Eigen::Vector3d& direction, double from, RayHit& best) const {
   const Eigen::Vector3d inverse = inverse_of(direction);
@@ -97,7 +122,7 @@ void Caster::meet_solids(const Cell& cell, const Eigen::Vector3d& origin,
     const Solid& solid = solids_[index];
     if (!passes(solid.box, origin, inverse, from, best.t)) continue;
     const auto hit = solid.meet(origin, direction, from, best.t, noise_);
-    if (hit) best = {hit->t, static_cast<int>(index), hit->normal, hit->material};
+    if (hit) best = {hit->t, static_cast<int>(index), &solid, hit->normal, hit->material};
   }
 }
 
@@ -144,16 +169,17 @@ void Caster::walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& directio
 }
 
 RayHit Caster::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from,
-                    double to) const {
+                    double to, const Movers* movers) const {
   RayHit best;
   best.t = to;
+  if (movers != nullptr) meet_movers(*movers, origin, direction, from, best);
   walk(origin, direction, from, to, [&](const Cell& cell, double enter, double exit) {
     const double lowest = origin.z() + std::min(enter * direction.z(), exit * direction.z());
     if (lowest > cell.top) return false;
     if (!cell.solids.empty()) meet_solids(cell, origin, direction, from, best);
     if (lowest <= cell.ground_top) {
       const double t = ground_.meet(origin, direction, enter, std::min(exit, best.t));
-      if (!std::isnan(t)) best = {t, RayHit::kGround, Eigen::Vector3d::UnitZ(), {}};
+      if (!std::isnan(t)) best = {t, RayHit::kGround, nullptr, Eigen::Vector3d::UnitZ(), {}};
     }
     return best.solid != RayHit::kSky && best.t <= exit;
   });
@@ -161,7 +187,7 @@ RayHit Caster::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direct
     const double t = -origin.z() / direction.z();  // the plane around the world
     const Eigen::Vector3d p = origin + t * direction;
     if (t > from && t < to && cell_at(p.x(), p.y()) == nullptr) {
-      best = {t, RayHit::kGround, Eigen::Vector3d::UnitZ(), {}};
+      best = {t, RayHit::kGround, nullptr, Eigen::Vector3d::UnitZ(), {}};
     }
   }
   return best;

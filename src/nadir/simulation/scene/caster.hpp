@@ -15,9 +15,21 @@ struct RayHit {
   static constexpr int kGround = -1;
 
   double t = 0.0;
-  int solid = kSky;  ///< index of the solid, or one of the above
+  int solid = kSky;  ///< index of the solid, or one of the above; movers follow the solids
+  const Solid* body = nullptr;  ///< where a solid was met
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Material material = Material::kConcrete;
+};
+
+/// Things that are elsewhere at every instant; a ray asks them one after the other.
+struct Movers {
+  struct Thing {
+    Eigen::AlignedBox3d box;
+    std::vector<Solid> solids;
+  };
+  std::vector<Thing> things;
+
+  void add(std::vector<Solid> solids);
 };
 
 /// Finds what rays meet, over the ground and the solids on it. Cells of the plane hold what can
@@ -29,7 +41,7 @@ class Caster {
   /// The first thing at origin + t direction with t in (from, to). Beyond the height field the
   /// ground goes on as a plane at height 0.
   RayHit cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from = 0.0,
-              double to = 1e9) const;
+              double to = 1e9, const Movers* movers = nullptr) const;
   /// Nothing between the two parameters of the ray but the bare ground, which is not asked.
   bool is_free(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from,
                double to) const;
@@ -49,6 +61,8 @@ class Caster {
   void walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from, double to,
             const Visit& visit) const;
   const Cell* cell_at(double x, double y) const;
+  void meet_movers(const Movers& movers, const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction, double from, RayHit& best) const;
   void meet_solids(const Cell& cell, const Eigen::Vector3d& origin,
                    const Eigen::Vector3d& direction, double from, RayHit& best) const;
 

@@ -146,7 +146,7 @@ GroundSample GroundModel::gravel(const GroundSpot& spot) const {
   const float pebbles = noise_.fractal(spot.x, spot.y, 0.07F, 3, kPebbles, spot.footprint, 0.9F);
   const float light = scattered(noise_, spot.x, spot.y, 0.05F, 0.3F, kPebbles, spot.footprint);
   const Rgb colour =
-      Rgb(0.31F, 0.27F, 0.205F) * (1.0F + 0.22F * stain + 0.34F * pebbles + 0.25F * light);
+      Rgb(0.25F, 0.215F, 0.165F) * (1.0F + 0.22F * stain + 0.34F * pebbles + 0.25F * light);
   return {colour.cwiseMax(0.03F), 0.0F};
 }
 

@@ -77,7 +77,6 @@ struct Barrier {
 struct Stall {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double yaw = 0.0;
-  bool on_lane = false;  ///< in traffic: taken by a moving car of the instant
 };
 
 struct Post {

@@ -20,6 +20,7 @@ enum Layer : std::uint32_t {
   kFoliageFine,
   kBarkGrain,
   kRoofStain,
+  kLeafTilt,
 };
 
 /// Coordinates on a wall: metres along it and above its foot.
@@ -160,12 +161,19 @@ Eigen::Vector3f Scene::material(const Solid& solid, const Eigen::Vector3d& point
 
 Eigen::Vector3f Scene::solid_colour(const Eigen::Vector3d& point, const RayHit& hit,
                                     float footprint) const {
-  const Solid& solid = caster_->solids()[static_cast<std::size_t>(hit.solid)];
+  const Solid& solid = *hit.body;
   const Eigen::Vector3f albedo = material(solid, point, hit, footprint);
   const bool leafy = hit.material == Material::kLeaves;
   double facing = hit.normal.dot(light_.to_sun);
   // Light passes through leaves, and they lie at all angles.
-  if (leafy) facing = 0.25 + 0.75 * std::max(facing, -0.2);
+  if (leafy) {
+    const auto x = static_cast<float>(point.x());
+    const auto y = static_cast<float>(point.y());
+    const auto z = static_cast<float>(point.z());
+    const float seen = std::clamp(0.2F / footprint - 0.3F, 0.0F, 1.0F);
+    facing += 0.45 * static_cast<double>(seen * noise_.at(x, y, z, 0.2F, kLeafTilt));
+    facing = 0.22 + 0.78 * std::max(facing, -0.15);
+  }
   bool sunlit = facing > 0.0;
   if (sunlit) {
     const Eigen::Vector3d off = point + (leafy ? 0.12 : 0.02) * hit.normal;

@@ -180,19 +180,8 @@ void Planner::add_parking_stalls(double from_edge) {
             std::any_of(layout.roads.begin(), layout.roads.end(), [&](const Road& road) {
               return std::abs(road.path.locate(place).across) < road.half_width + 1.2;
             });
-        if (!blocked) layout.stalls.push_back({place, area.yaw + 0.5 * kPi, false});
+        if (!blocked) layout.stalls.push_back({place, area.yaw + 0.5 * kPi});
       }
-    }
-  }
-}
-
-void Planner::add_traffic_stalls() {
-  for (const Road& road : layout.roads) {
-    if (road.kind != RoadKind::kStreet) continue;
-    for (double s = draw(4.0, 14.0); s < road.path.length(); s += draw(11.0, 17.0)) {
-      const double side = draw() < 0.5 ? -1.0 : 1.0;
-      const double yaw = road.path.at(s).yaw + (side > 0.0 ? kPi : 0.0);
-      layout.stalls.push_back({road.path.place({s, side * 0.5 * road.half_width}), yaw, true});
     }
   }
 }

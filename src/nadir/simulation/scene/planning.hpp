@@ -32,7 +32,6 @@ class Planner {
   void add_street_furniture();
   void add_trees(int count, double smallest, double largest);
   void add_parking_stalls(double from_edge);
-  void add_traffic_stalls();
 
   Layout layout;
 

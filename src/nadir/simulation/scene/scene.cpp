@@ -18,6 +18,10 @@ constexpr int kFinest = 2;       ///< its texels are this many times finer
 constexpr int kMaximumTaps = 8;  ///< along the long axis of a slanted pixel
 constexpr double kShadowReach = 80.0;
 
+// Streams of random numbers; the seed of the traffic is added.
+constexpr std::uint64_t kParked = 1'000'000;
+constexpr std::uint64_t kUnderWay = 2'000'000;
+
 Light light_of(const Appearance& appearance) {
   const double elevation = radians(appearance.sun_elevation_deg);
   const double yaw = 0.5 * kPi - radians(appearance.sun_heading_deg);
@@ -38,11 +42,12 @@ Light light_of(const Appearance& appearance) {
 
 Scene::Scene(std::shared_ptr<const Terrain> terrain, const Appearance& appearance)
     : terrain_(std::move(terrain)),
+      appearance_(appearance),
       dryness_(static_cast<float>(appearance.dryness)),
       light_(light_of(appearance)),
       noise_(terrain_->seed + 77U) {
   std::vector<Solid> solids = terrain_->solids;
-  place_cars(appearance, solids);
+  park_cars(solids);
   caster_ = std::make_unique<Caster>(terrain_->heights, std::move(solids), terrain_->seed);
   cast_shadows();
   light_ground();
@@ -52,21 +57,56 @@ Scene::Scene(std::shared_ptr<const Terrain> terrain, const Appearance& appearanc
   tiles_.resize(static_cast<std::size_t>(tile_columns_) * static_cast<std::size_t>(tile_rows_));
 }
 
-void Scene::place_cars(const Appearance& appearance, std::vector<Solid>& solids) const {
-  const RandomStream random(terrain_->seed ^ (appearance.traffic_seed * 0x9E3779B97F4A7C15ULL),
-                            500);
+void Scene::park_cars(std::vector<Solid>& solids) const {
+  const RandomStream random(terrain_->seed, kParked + appearance_.traffic_seed);
   for (std::size_t i = 0; i < terrain_->layout.stalls.size(); ++i) {
     const Stall& stall = terrain_->layout.stalls[i];
-    if (stall.on_lane || random.uniform(4 * i) >= appearance.car_share) continue;
+    if (random.uniform(4 * i) >= appearance_.car_share) continue;
     Car car;
     const double turn = random.uniform(4 * i + 1) < 0.4 ? kPi : 0.0;
     car.yaw = stall.yaw + turn + random.uniform(4 * i + 2, -0.035, 0.035);
     const auto [u, v] = random.uniform_pair(4 * i + 3);
     car.at = stall.at + Eigen::Vector2d(0.36 * u - 0.18, 0.36 * v - 0.18);
     car.ground = terrain_->heights.at(car.at.x(), car.at.y());
-    car.seed = terrain_->seed * 1000003U + appearance.traffic_seed * 1009U + i;
+    car.seed = terrain_->seed * 1000003U + appearance_.traffic_seed * 1009U + i;
     add_car(car, solids);
   }
+}
+
+Movers Scene::traffic(double seconds) const {
+  const RandomStream random(terrain_->seed, kUnderWay + appearance_.traffic_seed);
+  Movers movers;
+  std::uint64_t draw = 0;
+  for (const Road& road : terrain_->layout.roads) {
+    if (road.kind != RoadKind::kStreet) continue;
+    const double length = road.path.length();
+    for (const double side : {-1.0, 1.0}) {
+      const double speed = random.uniform(draw++, 5.0, 8.0);
+      const double start = random.uniform(draw++, 0.0, length);
+      const auto count = static_cast<int>(std::lround(length * appearance_.cars_per_km / 2000.0));
+      for (int i = 0; i < count; ++i) {
+        const double gap = length / count;
+        const double uneven = random.uniform(draw++, -0.3, 0.3) * gap;
+        const double gone = start + i * gap + uneven + speed * seconds;
+        const double along = gone - length * std::floor(gone / length);
+        const PathPose pose = road.path.at(side > 0.0 ? length - along : along);
+        Car car;
+        car.yaw = pose.yaw + (side > 0.0 ? kPi : 0.0);
+        car.at = pose.point + 0.5 * side * road.half_width *
+                                  Eigen::Vector2d(-std::sin(pose.yaw), std::cos(pose.yaw));
+        car.seed = terrain_->seed * 1000003U + appearance_.traffic_seed * 1013U + draw;
+        const Extent& extent = terrain_->extent;
+        if ((car.at - extent.low).minCoeff() < 3.0 || (extent.high - car.at).minCoeff() < 3.0) {
+          continue;
+        }
+        car.ground = terrain_->heights.at(car.at.x(), car.at.y());
+        std::vector<Solid> solids;
+        add_car(car, solids);
+        movers.add(std::move(solids));
+      }
+    }
+  }
+  return movers;
 }
 
 /// Which places of the ground the sun reaches.
@@ -201,7 +241,7 @@ Eigen::Vector3f Scene::ground_colour(double x, double y, float footprint) const 
 }
 
 Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                              const RayHit& hit, double width) const {
+                              const RayHit& hit, double width, const Movers* movers) const {
   if (hit.solid == RayHit::kSky) return sky(direction);
   const Eigen::Vector3d p = origin + hit.t * direction;
   if (hit.solid >= 0) return solid_colour(p, hit, static_cast<float>(width));
@@ -211,13 +251,29 @@ Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector
   const double length = std::min(width * slant, 40.0);
   const int taps = std::clamp(static_cast<int>(std::lround(length / width)), 1, kMaximumTaps);
   const auto footprint = static_cast<float>(std::max(width, length / kMaximumTaps));
-  if (taps == 1) return ground_colour(p.x(), p.y(), footprint);
+  const Eigen::Vector3f left = movers == nullptr ? Eigen::Vector3f::Ones() : shadow_of(*movers, p);
+  if (taps == 1) return left.cwiseProduct(ground_colour(p.x(), p.y(), footprint));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (int i = 0; i < taps; ++i) {
     const double offset = ((i + 0.5) / taps - 0.5) * length / run;
     sum += ground_colour(p.x() + offset * direction.x(), p.y() + offset * direction.y(), footprint);
   }
-  return sum / static_cast<float>(taps);
+  return left.cwiseProduct(sum) / static_cast<float>(taps);
+}
+
+Eigen::Vector3f Scene::shadow_of(const Movers& movers, const Eigen::Vector3d& point) const {
+  constexpr double kReach = 8.0;
+  for (const Movers::Thing& thing : movers.things) {
+    if ((thing.box.center() - point).head<2>().norm() > kReach) continue;
+    const bool hidden =
+        std::any_of(thing.solids.begin(), thing.solids.end(), [&](const Solid& solid) {
+          return solid.meet(point, light_.to_sun, 0.01, kReach, noise_).has_value();
+        });
+    if (!hidden || !caster_->is_free(point, light_.to_sun, 0.05, kShadowReach)) continue;
+    const Eigen::Vector3f all = static_cast<float>(light_.to_sun.z()) * light_.sun + light_.sky;
+    return light_.sky.cwiseQuotient(all);
+  }
+  return Eigen::Vector3f::Ones();
 }
 
 Eigen::Vector3f Scene::sky(const Eigen::Vector3d& direction) const {

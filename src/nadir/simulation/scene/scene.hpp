@@ -28,13 +28,17 @@ class Scene {
 
   /// Linear radiance of what a ray met. `width` is that of the pixel there, across the ray, metres.
   Eigen::Vector3f colour(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                         const RayHit& hit, double width) const;
+                         const RayHit& hit, double width, const Movers* movers = nullptr) const;
+  /// The cars that are under way, so many seconds after the beginning of the hour.
+  Movers traffic(double seconds) const;
   /// Of the ground: lit texture, finest where refine() was asked.
   Eigen::Vector3f ground_colour(double x, double y, float footprint) const;
   void refine(std::span<const Pose2> places, double radius_m);
 
  private:
-  void place_cars(const Appearance& appearance, std::vector<Solid>& solids) const;
+  void park_cars(std::vector<Solid>& solids) const;
+  /// What of the light is left on the ground beside the movers, 0 .. 1 of each colour.
+  Eigen::Vector3f shadow_of(const Movers& movers, const Eigen::Vector3d& point) const;
   void cast_shadows();
   void light_ground();
   /// Reflectance -> radiance of the ground at a point.
@@ -47,6 +51,7 @@ class Scene {
   Eigen::Vector3f tinted(const Eigen::Vector3f& colour, float plants) const;
 
   std::shared_ptr<const Terrain> terrain_;
+  Appearance appearance_;
   float dryness_;
   Light light_;
   ValueNoise noise_;

@@ -18,7 +18,7 @@ bool leaves_at(const ValueNoise& noise, const Eigen::Vector3d& p, double facing)
   const auto z = static_cast<float>(p.z());
   const float coarse = noise.at(x, y, z, 0.32F, kFray);
   const float fine = noise.at(x, y, z, 0.11F, kFrayFine);
-  return 0.6F * coarse + 0.55F * fine + 1.1F * static_cast<float>(facing) > 0.12F;
+  return 0.55F * coarse + 0.75F * fine + 1.0F * static_cast<float>(facing) > 0.22F;
 }
 
 std::optional<BodyHit> meet_faces(std::span<const Face> faces, const Eigen::Vector3d& origin,

@@ -114,26 +114,36 @@ void add_tree(const Tree& tree, double ground, std::uint64_t seed, std::vector<S
   const double middle = ground + tree.height - 0.5 * crown_height;
   solids.push_back(make_post(tree.at, 0.05 + 0.02 * tree.height, ground - 0.2, middle,
                              Material::kBark, {0.12F, 0.095F, 0.07F}, number));
-  std::vector<Puff> puffs;
-  constexpr std::uint64_t kPuffs = 26;
+  const auto tint = static_cast<float>(random.uniform(900, -1.0, 1.0));
+  const Rgb colour(0.066F + 0.024F * tint, 0.108F + 0.014F * tint, 0.032F + 0.004F * tint);
+  const double lean_x = random.uniform(901, -0.12, 0.12) * tree.crown;
+  const double lean_y = random.uniform(902, -0.12, 0.12) * tree.crown;
+  constexpr std::size_t kSectors = 4;  // parts of a crown, each with a box of its own
+  std::array<std::vector<Puff>, kSectors> sectors;
+  constexpr std::uint64_t kPuffs = 52;
   for (std::uint64_t i = 0; i < kPuffs; ++i) {
     // Spread over a ball (golden angle), then pushed about: no two crowns are alike.
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(kPuffs);
-    const double z = 1.0 - 1.75 * share + random.uniform(5 * i, -0.15, 0.15);
-    const double angle = 2.39996 * static_cast<double>(i) + random.uniform(5 * i + 1, -0.5, 0.5);
+    const double z = 1.0 - 1.8 * share + random.uniform(5 * i, -0.15, 0.15);
+    const double angle = 2.39996 * static_cast<double>(i) + random.uniform(5 * i + 1, -0.6, 0.6);
     const double flat = std::sqrt(std::max(0.05, 1.0 - z * z));
-    const double out = random.uniform(5 * i + 2, 0.35, 0.78);
-    const double size = random.uniform(5 * i + 3, 0.30, 0.48) * tree.crown;
+    const double out = random.uniform(5 * i + 2, 0.40, 0.92);
+    const double size = random.uniform(5 * i + 3, 0.17, 0.36) * tree.crown;
     Puff puff;
-    puff.centre = {tree.at.x() + out * flat * tree.crown * std::cos(angle),
-                   tree.at.y() + out * flat * tree.crown * std::sin(angle),
-                   middle + 0.5 * out * 1.2 * z * crown_height};
-    puff.radius = {size, size, random.uniform(5 * i + 4, 0.6, 0.85) * size};
-    puffs.push_back(puff);
+    puff.centre = {tree.at.x() + lean_x * z + out * flat * tree.crown * std::cos(angle),
+                   tree.at.y() + lean_y * z + out * flat * tree.crown * std::sin(angle),
+                   middle + 0.5 * out * 1.15 * z * crown_height};
+    puff.radius = {size, size, random.uniform(5 * i + 4, 0.6, 0.9) * size};
+    const double turn = angle / (2.0 * kPi);
+    const auto sector = static_cast<std::size_t>((turn - std::floor(turn)) * kSectors);
+    sectors[std::min(sector, kSectors - 1)].push_back(puff);
   }
-  const auto tint = static_cast<float>(random.uniform(900, -1.0, 1.0));
-  const Rgb colour(0.062F + 0.022F * tint, 0.108F + 0.014F * tint, 0.032F + 0.004F * tint);
-  solids.push_back(make_puffs(std::move(puffs), colour, number));
+  // The middle is dense: no ray passes a whole crown unhindered.
+  const double core = 0.55 * tree.crown;
+  sectors[0].push_back({{tree.at.x(), tree.at.y(), middle}, {core, core, 0.36 * crown_height}});
+  for (const std::vector<Puff>& puffs : sectors) {
+    if (!puffs.empty()) solids.push_back(make_puffs(puffs, colour, number));
+  }
 }
 
 void add_barrier(const Barrier& barrier, double ground, std::uint64_t seed,

@@ -50,7 +50,7 @@ Eigen::Vector3d CameraRays::at(double column, double row) const {
 }
 
 Raster<float> view(const Scene& scene, const CameraRays& rays,
-                   const std::function<CameraPose(int row)>& pose_of_row) {
+                   const std::function<CameraPose(int row)>& pose_of_row, const Movers* movers) {
   const CameraModel& camera = rays.camera();
   Raster<float> image(camera.width, camera.height, 0.0F, 3);
   Raster<Seen> seen(camera.width, camera.height);
@@ -63,13 +63,13 @@ Raster<float> view(const Scene& scene, const CameraRays& rays,
   const auto look = [&](const Shot& shot, const Eigen::Vector3d& ray, double width,
                         Seen* what) -> Eigen::Vector3f {
     const Eigen::Vector3d direction = shot.rotation * ray;
-    const RayHit hit = scene.caster().cast(shot.origin, direction);
+    const RayHit hit = scene.caster().cast(shot.origin, direction, 0.0, 1e9, movers);
     if (what != nullptr) {
       const bool solid = hit.solid >= 0;
       *what = {solid ? static_cast<std::int32_t>(hit.solid) : hit.solid, static_cast<float>(hit.t)};
     }
     // With rays of z = 1, t is the depth and t / fx the width of a pixel there.
-    return scene.colour(shot.origin, direction, hit, width * hit.t);
+    return scene.colour(shot.origin, direction, hit, width * hit.t, movers);
   };
   tbb::parallel_for(0, camera.height, [&](int row) {
     for (int column = 0; column < camera.width; ++column) {

@@ -31,6 +31,7 @@ class CameraRays {
 /// Linear radiance of every pixel. `pose_of_row` gives the camera's pose while a row is read (all
 /// equal for a global shutter). Pixels on the outlines of things are averages of several rays.
 Raster<float> view(const Scene& scene, const CameraRays& rays,
-                   const std::function<CameraPose(int row)>& pose_of_row);
+                   const std::function<CameraPose(int row)>& pose_of_row,
+                   const Movers* movers = nullptr);
 
 }  // namespace nadir::simulation

@@ -11,8 +11,8 @@
 namespace nadir::simulation {
 
 std::vector<LidarPoint> scan(const Scene& scene, const Sweep& sweep, const LidarRig& rig,
-                             const LidarOptions& options, std::uint64_t seed,
-                             std::uint64_t stream) {
+                             const LidarOptions& options, std::uint64_t seed, std::uint64_t stream,
+                             const Movers& movers) {
   const RandomStream random(seed, stream);
   std::vector<std::vector<LidarPoint>> rings(static_cast<std::size_t>(options.rings));
   tbb::parallel_for(0, options.rings, [&](int ring) {
@@ -33,14 +33,15 @@ std::vector<LidarPoint> scan(const Scene& scene, const Sweep& sweep, const Lidar
       const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth),
                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const Eigen::Vector3d direction = lidar.rotation * beam;
-      const RayHit hit =
-          scene.caster().cast(lidar.translation, direction, options.shortest_m, options.longest_m);
+      const RayHit hit = scene.caster().cast(lidar.translation, direction, options.shortest_m,
+                                             options.longest_m, &movers);
       const auto index =
           static_cast<std::uint64_t>(ring) * static_cast<std::uint64_t>(options.columns) +
           static_cast<std::uint64_t>(column);
       if (hit.solid == RayHit::kSky || random.uniform(2 * index) < options.dropout) continue;
       const double range = hit.t + options.range_noise_m * random.normal(2 * index + 1);
-      const Eigen::Vector3f colour = scene.colour(lidar.translation, direction, hit, 0.003 * hit.t);
+      const Eigen::Vector3f colour =
+          scene.colour(lidar.translation, direction, hit, 0.003 * hit.t, &movers);
       const Eigen::Vector3d p = range * beam;
       rings[static_cast<std::size_t>(ring)].push_back(
           {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),

@@ -18,6 +18,7 @@ struct Sweep {
 /// One turn of a lidar, ring by ring from below, each point in the lidar's frame at its own time.
 /// What is out of range, met nothing or dropped out is left out.
 std::vector<LidarPoint> scan(const Scene& scene, const Sweep& sweep, const LidarRig& rig,
-                             const LidarOptions& options, std::uint64_t seed, std::uint64_t stream);
+                             const LidarOptions& options, std::uint64_t seed, std::uint64_t stream,
+                             const Movers& movers);
 
 }  // namespace nadir::simulation
