@@ -131,6 +131,30 @@ TEST_P(BackendsTest, SurfacesEqualTheReference) {
   }
 }
 
+TEST_P(BackendsTest, ATemplateLargerThanTheMapEqualsTheReference) {
+  for (const auto& [width, height] : {std::pair{2, 3}, std::pair{9, 4}, std::pair{5, 40}}) {
+    const MapIndex map(random_image(1, width, height, 0.1, {0.0, 0.1 * height, 0.1, {}}),
+                       options(0.02));
+    const Template local =
+        make_template(random_image(2, 31, 23, 0.1, centred(31, 23, 0.1)), options(0.02));
+    const std::vector<RotatedTemplate> templates = {
+        rotate_template(local.channel, 0.0, 0.1, pixel_role(map.options())),
+        rotate_template(local.channel, 0.8, 0.1, pixel_role(map.options()))};
+    const PixelWindow window{-3, -2, width + 6, height + 4};
+    const auto fast = tested().score_surfaces(map, templates, window);
+    const auto slow = reference_backend().score_surfaces(map, templates, window);
+    for (std::size_t k = 0; k < templates.size(); ++k) {
+      for (std::size_t i = 0; i < slow[k].score.values().size(); ++i) {
+        const double share = slow[k].valid_weight.values()[i];
+        ASSERT_NEAR(fast[k].valid_weight.values()[i], share, 1e-4) << i;
+        if (borderline(share, 0.02)) continue;
+        expect_same(fast[k].score.values()[i], slow[k].score.values()[i], 10 * variant().tolerance,
+                    std::to_string(i));
+      }
+    }
+  }
+}
+
 TEST_P(BackendsTest, PosesEqualTheReference) {
   const MapIndex map(random_image(5, 61, 47, 0.02, {500000.0, 4.7e6, 0.1, {}}), options());
   const Template local =

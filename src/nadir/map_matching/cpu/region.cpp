@@ -19,9 +19,10 @@ Interval within(const Interval& range, int size) {
   return inside.begin < inside.end ? inside : Interval{range.begin, range.begin + 1};
 }
 
-/// No two pixels of `touched`, one of them in `kept`, may fall together.
-int period(const Interval& touched, const Interval& kept) {
-  return std::max(touched.end - kept.begin, kept.end - touched.begin);
+/// No two pixels of `touched`, one of them in `kept`, may fall together; nor two of a template,
+/// which may be larger than the map.
+int period(const Interval& touched, const Interval& kept, int template_size) {
+  return std::max({touched.end - kept.begin, kept.end - touched.begin, template_size});
 }
 
 }  // namespace
@@ -49,9 +50,12 @@ Region cut_region(const ChannelImage& map, std::span<const RotatedTemplate> temp
 
   const int width = u_range.end - u_range.begin;
   const int height = v_range.end - v_range.begin;
-  Region region{u_range.begin - window.left,  v_range.begin - window.top,
-                period(columns, u_range),     period(rows, v_range),
-                Raster<float>(width, height), Raster<float>(width, height),
+  Region region{u_range.begin - window.left,
+                v_range.begin - window.top,
+                period(columns, u_range, bounds.right - bounds.left),
+                period(rows, v_range, bounds.bottom - bounds.top),
+                Raster<float>(width, height),
+                Raster<float>(width, height),
                 Raster<float>(width, height)};
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {

@@ -16,7 +16,8 @@ Reach reach_of(int window_first, int window_size, int box_first, int box_size) {
 }
 
 /// A size at which no template that wraps around meets the map a second time: pixels left of the
-/// crop come out at its right, behind `end`.
+/// crop come out at its right, behind `end`. It may be smaller than the template: what does not fit
+/// in touches no pixel of the crop.
 int size_for(const Reach& reach, int crop_first, int crop_size) {
   return fft_size(
       std::max({crop_size, crop_first + crop_size - reach.first, reach.end - crop_first}));
