@@ -34,17 +34,21 @@ void Progress::update(int done) {
   if (style_ == Style::kBar) {
     draw_bar(done, percent);
   } else if (percent >= step) {
-    fmt::print(stderr, "nadir: {} {} % ({} of {})\n", label_, percent / step * step, done, total_);
+    fmt::print(stderr, "nadir: {} {} % ({} of {}), about {:.0f} s left\n", label_,
+               percent / step * step, done, total_, seconds_left(done));
   }
   shown_percent_ = percent;
 }
 
+double Progress::seconds_left(int done) const {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  return done > 0 ? passed.count() * (total_ - done) / done : 0.0;
+}
+
 void Progress::draw_bar(int done, int percent) const {
   const int filled = kBarWidth * percent / 100;
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-  const double left_s = done > 0 ? passed.count() * (total_ - done) / done : 0.0;
   fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3} % {:.0f} s left \033[K", label_, "", filled, "",
-             kBarWidth - filled, percent, left_s);
+             kBarWidth - filled, percent, seconds_left(done));
   std::fflush(stderr);
 }
 

@@ -17,10 +17,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(int done);
+  /// The same work goes on under another name.
+  void rename(const std::string& label) { label_ = label; }
 
  private:
   enum class Style { kNone, kBar, kLines };
 
+  double seconds_left(int done) const;
   void draw_bar(int done, int percent) const;
 
   std::string label_;

@@ -8,6 +8,7 @@ namespace nadir::cli {
 // One file a verb: it adds its subcommand to the program and binds its work to the invocation.
 void add_convert(CLI::App& program, Invocation& invocation);
 void add_info(CLI::App& program, Invocation& invocation);
+void add_map(CLI::App& program, Invocation& invocation);
 void add_match(CLI::App& program, Invocation& invocation);
 void add_localize(CLI::App& program, Invocation& invocation);
 void add_eval(CLI::App& program, Invocation& invocation);

@@ -303,13 +303,16 @@ TEST(PhotoFile, RefusesWhatIsNoPhoto) {
 
 TEST(PhotoFile, ListsPhotosAndNothingElse) {
   const TemporaryFolder folder;
-  for (const char* name : {"b.JPG", "a.jpeg", "c.tif", "notes.txt", ".hidden.jpg"}) {
+  for (const char* name : {"b.JPG", "a.jpeg", "map.tif", "notes.txt", ".hidden.jpg"}) {
     test::write_text(folder / name, "x");
   }
   const auto files = photo_files(folder.path());
-  ASSERT_EQ(files.size(), 3U);
+  ASSERT_EQ(files.size(), 2U);
   EXPECT_EQ(files[0].filename(), "a.jpeg");
   EXPECT_EQ(files[1].filename(), "b.JPG");
+  const TemporaryFolder nested;
+  test::write_text(nested / "100MEDIA/c.png", "x");
+  EXPECT_EQ(photo_files(nested.path()).size(), 1U);
   const TemporaryFolder empty;
   expect_error(ErrorKind::kInput, {"holds no photos"}, [&] { photo_files(empty.path()); });
 }

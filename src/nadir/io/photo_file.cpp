@@ -59,15 +59,19 @@ std::string encode_jpeg(const std::filesystem::path& path, const Photo& photo, i
 }  // namespace
 
 std::vector<std::filesystem::path> photo_files(const std::filesystem::path& folder) {
-  static const std::set<std::string> kPhotos{".jpg", ".jpeg", ".png", ".tif", ".tiff"};
-  std::vector<std::filesystem::path> files = files_in(folder, Depth::kFolder);
-  std::erase_if(files, [](const auto& file) {
-    return !kPhotos.contains(lower_extension(file)) || file.filename().string().starts_with('.');
-  });
-  if (files.empty()) {
-    throw input_error(folder, "holds no photos", "give a folder of JPEG, PNG or TIFF photos");
+  static const std::set<std::string> kJpeg{".jpg", ".jpeg"};
+  static const std::set<std::string> kOthers{".png", ".tif", ".tiff"};
+  for (const Depth depth : {Depth::kFolder, Depth::kAllBelow}) {
+    for (const auto& extensions : {kJpeg, kOthers}) {
+      std::vector<std::filesystem::path> files = files_in(folder, depth);
+      std::erase_if(files, [&](const auto& file) {
+        return !extensions.contains(lower_extension(file)) ||
+               file.filename().string().starts_with('.');
+      });
+      if (!files.empty()) return files;
+    }
   }
-  return files;
+  throw input_error(folder, "holds no photos", "give a folder of JPEG, PNG or TIFF photos");
 }
 
 ImageSize reduced_size(int width, int height, int max_image_px) {

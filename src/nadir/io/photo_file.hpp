@@ -8,8 +8,9 @@
 
 namespace nadir {
 
-/// The photos right in a folder (JPEG, PNG, TIFF by extension), sorted by name.
-/// Throws Error (input) for a folder that cannot be listed or holds none.
+/// The photos of a folder, sorted: its JPEG files; where it has none, its PNG and TIFF files; where
+/// it has neither, those of its subfolders in the same order. (A map that was written beside the
+/// photos is none of them.) Throws Error (input) where the folder cannot be listed or holds none.
 std::vector<std::filesystem::path> photo_files(const std::filesystem::path& folder);
 
 /// What EXIF and XMP (namespace drone-dji, as elements or as attributes) say of a photo. Only the

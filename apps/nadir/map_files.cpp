@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_files.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "nadir/core/error.hpp"
+#include "nadir/io/atomic_file.hpp"
+#include "nadir/io/elevation_file.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/photo_poses.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path sister(const fs::path& map, const char* suffix) {
+  return map.parent_path() / (map.stem().string() + suffix);
+}
+
+/// Where the map has no pixel there is no quality either.
+ElevationMap quality_raster(const AerialMap& map) {
+  ElevationMap quality{map.quality, map.ortho.geo};
+  auto& values = quality.height_m.values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (map.ortho.valid.values()[i] == 0) values[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  return quality;
+}
+
+Orthomosaic view_count_raster(const AerialMap& map) {
+  return {map.view_count, map.view_count, map.ortho.geo};
+}
+
+}  // namespace
+
+MapFiles::MapFiles(const fs::path& path)
+    : map(path),
+      surface(sister(path, ".surface.tif")),
+      views(sister(path, ".views.tif")),
+      quality(sister(path, ".quality.tif")),
+      poses(sister(path, ".poses.json")),
+      report(sister(path, ".report.json")),
+      page(sister(path, ".report.html")) {}
+
+void require_new(const fs::path& map, const CommonOptions& common) {
+  if (map.extension() != ".tif" && map.extension() != ".tiff") {
+    throw Error(ErrorKind::kUsage, "the map is a GeoTIFF", map.string(), "give -o MAP.tif");
+  }
+  const fs::path folder = map.has_parent_path() ? map.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) {
+    throw Error(ErrorKind::kUsage, "there is no such folder", folder.string(),
+                "create it or give another -o");
+  }
+  if (fs::exists(map) && !common.overwrite) {
+    throw Error(ErrorKind::kUsage, "the map is there already", map.string(),
+                "give --overwrite to replace it, or another -o");
+  }
+}
+
+void write_map_files(const MapFiles& files, const AerialMap& map) {
+  write_elevation_map(files.surface, map.surface);
+  write_orthomosaic(files.views, view_count_raster(map));
+  write_elevation_map(files.quality, quality_raster(map));
+  write_photo_poses(files.poses, map.poses, map.ortho.geo.crs);
+  write_orthomosaic(files.map, map.ortho);
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "flight_input.hpp"
+#include "invocation.hpp"
+#include "nadir/aerial_mapping/aerial_map.hpp"
+#include "streams.hpp"
+
+namespace nadir::cli {
+
+/// The files of a map: MAP.tif and its sisters MAP.surface.tif, MAP.views.tif and so on.
+struct MapFiles {
+  explicit MapFiles(const std::filesystem::path& map);
+  std::filesystem::path map;
+  std::filesystem::path surface;
+  std::filesystem::path views;
+  std::filesystem::path quality;
+  std::filesystem::path poses;
+  std::filesystem::path report;
+  std::filesystem::path page;
+};
+
+/// Throws Error (usage) for a map that is no .tif, that is there already without --overwrite, or
+/// whose folder is not there.
+void require_new(const std::filesystem::path& map, const CommonOptions& common);
+
+/// Writes the rasters and the poses, the map last: where it is, all is.
+void write_map_files(const MapFiles& files, const AerialMap& map);
+
+/// What `--json` prints: a summary.
+Json summary_of(const AerialMap& map, const FlightInput& input);
+/// MAP.report.json: the summary and every photo, pair, camera and control point.
+Json report_of(const AerialMap& map, const FlightInput& input);
+std::string text_of(const AerialMap& map, const FlightInput& input);
+
+/// MAP.report.html: one file with pictures.
+std::string report_page(const AerialMap& map, const FlightInput& input, const std::string& title);
+
+}  // namespace nadir::cli

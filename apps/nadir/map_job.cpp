@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_job.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "interrupt.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/atomic_file.hpp"
+#include "progress.hpp"
+#include "stopwatch.hpp"
+#include "threads.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kProgressSteps = 1000;
+
+FlightInput read_input(const MapOptions& options, const AerialMappingOptions& stage,
+                       const CommonOptions& common) {
+  std::optional<Progress> progress;
+  FlightInput input = read_flight(options.flight, stage, [&](int done, int total) {
+    stop_if_interrupted();
+    if (!progress) progress.emplace("reading photos", total, common);
+    progress->update(done);
+  });
+  progress.reset();
+  if (input.frame) print_note("map frame " + input.frame->name(), common.quiet);
+  return input;
+}
+
+int explain(const MapOptions& options, const FlightInput& input, const CommonOptions& common) {
+  const Json plan{{"dry_run", true},
+                  {"photos", input.found},
+                  {"used", input.set.photos.size()},
+                  {"cameras", input.set.cameras.size()},
+                  {"crs", input.frame ? Json(input.frame->name()) : Json(nullptr)},
+                  {"photo_pixel_m", input.estimate.photo_pixel_m},
+                  {"extent_m", {input.estimate.width_m, input.estimate.height_m}},
+                  {"output", options.map.string()},
+                  {"warnings", input.warnings}};
+  if (common.json) {
+    print(plan);
+  } else {
+    print(fmt::format("would map {} of {} photos, about {:.0f} x {:.0f} m, to {}\n",
+                      input.set.photos.size(), input.found, input.estimate.width_m,
+                      input.estimate.height_m, options.map.string()));
+  }
+  return 0;
+}
+
+/// "photos A..F do not join B..K", where they do not.
+std::optional<std::string> parts_of(const AdjustmentReport& report) {
+  if (report.components.size() < 2) return std::nullopt;
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < report.components.size(); ++i) {
+    others.insert(others.end(), report.components[i].begin(), report.components[i].end());
+  }
+  return fmt::format("{} do not join {}: the map shows the latter alone", listed(others),
+                     listed(report.components.front()));
+}
+
+}  // namespace
+
+MappingProgress mapping_progress(const CommonOptions& common) {
+  const auto bar = std::make_shared<Progress>("mapping", kProgressSteps, common);
+  return [bar](const std::string& stage, double share) {
+    stop_if_interrupted();
+    double done = 0.0;
+    for (const MappingStage& known : kMappingStages) {
+      if (stage == known.name) {
+        bar->rename("mapping: " + stage);
+        bar->update(static_cast<int>(kProgressSteps * (done + share * known.share)));
+        return;
+      }
+      done += known.share;
+    }
+  };
+}
+
+void check_size(const AerialMappingOptions& options, const fs::path& map, FlightInput& input) {
+  const FlightEstimate& estimate = input.estimate;
+  const double pixel = estimate.photo_pixel_m;
+  if (pixel > 0.0 && options.resolution_m < 0.5 * pixel) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} m a pixel is finer than half a pixel of the photos ({:.3f} m)",
+                            options.resolution_m, pixel),
+                "--gsd", fmt::format("give --gsd {:.3f} or coarser", pixel));
+  }
+  if (pixel > 0.0 && options.resolution_m < pixel) {
+    input.warnings.push_back(
+        fmt::format("{} m a pixel is finer than the photos ({:.3f} m): the map shows no more",
+                    options.resolution_m, pixel));
+  }
+  const double megapixels =
+      estimate.width_m * estimate.height_m / (options.resolution_m * options.resolution_m) / 1e6;
+  if (megapixels > 4.0 * options.max_megapixels) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the map would have {:.0f} million pixels ({:.0f} x {:.0f} m at {} m)",
+                            megapixels, estimate.width_m, estimate.height_m, options.resolution_m),
+                "--gsd", "give a coarser one, or raise aerial_mapping.max_megapixels");
+  }
+  constexpr double kBytesPerPixel = 9.0;  // colours, mask, views, quality, before compression
+  std::error_code unknown;
+  const auto space = fs::space(map.has_parent_path() ? map.parent_path() : ".", unknown);
+  const double needed_mb = megapixels * kBytesPerPixel;
+  const double free_mb = static_cast<double>(space.available) / 1e6;
+  if (!unknown && needed_mb > free_mb) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the map may take {:.0f} MB, {:.0f} MB are free", needed_mb, free_mb),
+                map.string(), "free some space or give another -o");
+  }
+}
+
+int map_flight(const MapOptions& options, const Invocation& invocation) {
+  const CommonOptions& common = invocation.common;
+  const ThreadLimit limit(common);
+  const EffectiveOptions effective(options.sources);
+  const AerialMappingOptions& stage = effective.aerial_mapping();
+  require_new(options.map, common);
+  const Stopwatch stopwatch;
+  FlightInput input = read_input(options, stage, common);
+  const double read_s = stopwatch.seconds();
+  check_size(stage, options.map, input);
+  for (const std::string& warning : input.warnings) print_note(warning, common.quiet);
+  if (common.dry_run) return explain(options, input, common);
+
+  AerialMap map = map_photos(input.set, stage, mapping_progress(common));
+  const Stopwatch writing;
+  const MapFiles files(options.map);
+  write_file(files.page, report_page(map, input, options.map.filename().string()));
+  write_map_files(files, map);
+  map.report.seconds.insert(map.report.seconds.begin(), {"read", read_s});
+  map.report.seconds.emplace_back("write", writing.seconds());
+  write_file(files.report, report_of(map, input).dump(2) + "\n");
+  for (const std::string& warning : map.report.warnings) print_note(warning, common.quiet);
+  common.json ? print(summary_of(map, input))
+              : print(text_of(map, input) + "written to " + options.map.string() + "\n");
+  const auto parts = parts_of(map.report);
+  if (!parts || options.allow_parts) return 0;
+  print_error(*parts + "; give --allow-parts to take that as a success");
+  return static_cast<int>(ErrorKind::kProcessing);
+}
+
+}  // namespace nadir::cli
