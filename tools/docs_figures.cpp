@@ -6,6 +6,7 @@
 
 #include "nadir/io/image.hpp"
 #include "nadir/report/figures.hpp"
+#include "simulated_world_sheet.hpp"
 
 int main(int count, char** arguments) try {
   if (count != 2) {
@@ -14,6 +15,8 @@ int main(int count, char** arguments) try {
   }
   nadir::write_png(std::filesystem::path(arguments[1]) / "conventions.png",
                    nadir::draw_conventions());
+  nadir::write_png(std::filesystem::path(arguments[1]) / "simulated_world.png",
+                   nadir::draw_simulated_world_sheet());
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "docs_figures: error: " << error.what() << '\n';
