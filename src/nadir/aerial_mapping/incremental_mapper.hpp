@@ -28,8 +28,9 @@ struct MapUpdate {
   int photos = 0;            ///< that the map is made of
 };
 
-/// The map while the drone flies. The grid is fixed by the first photo: pixels never shift under
-/// who uses the map. `finish` gives the very map that map_photos makes of the same photos.
+/// The map while the drone flies. Where photos have positions the grid is fixed by the first one:
+/// pixels never shift under who uses the map. Without positions each photo makes the frame anew.
+/// `finish` gives the very map that map_photos makes of the same photos.
 class IncrementalMapper {
  public:
   /// `frame` is a photo set without photos: cameras (may grow with add_camera), control points,
@@ -44,8 +45,8 @@ class IncrementalMapper {
 
   MapUpdate add(const MappingPhoto& photo);
 
-  /// The map as it stands: feathered, quickly made. Empty before two photos join or one has a
-  /// position and an attitude.
+  /// The map as it stands: feathered, quickly made, with poses and views but without report and
+  /// sources. Empty before two photos join or one has position, attitude and height.
   const AerialMap& current() const;
 
   /// All photos adjusted together, seams and blending as in batch mode.

@@ -25,8 +25,6 @@ void check(const PhotoSet& photos) {
     if (camera.width < 16 || camera.height < 16)
       throw Error(ErrorKind::kUsage, "the camera has no size", camera.name);
   }
-  if (photos.photos.size() < 2)
-    throw Error(ErrorKind::kNoResult, "a map needs two photos at least");
 }
 
 /// Middle of the known positions, whole metres: a multiple of any sensible resolution.
@@ -107,9 +105,9 @@ void shift_map(AerialMap& map, const Eigen::Vector3d& anchor) {
 
 }  // namespace
 
-LocalSet localise(const PhotoSet& photos) {
+LocalSet localise(const PhotoSet& photos, const Eigen::Vector3d* anchor) {
   check(photos);
-  LocalSet local{photos, anchor_of(photos)};
+  LocalSet local{photos, anchor != nullptr ? *anchor : anchor_of(photos)};
   std::sort(local.set.photos.begin(), local.set.photos.end(),
             [](const MappingPhoto& a, const MappingPhoto& b) { return a.name < b.name; });
   std::sort(local.set.control_points.begin(), local.set.control_points.end(),
@@ -132,6 +130,8 @@ Pipeline::Pipeline(const AerialMappingOptions& options) : options_(options) {}
 #endif
 
 AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress) {
+  if (photos.photos.size() < 2)
+    throw Error(ErrorKind::kNoResult, "a map needs two photos at least");
   const LocalSet local = localise(photos);
   const PhotoSet& set = local.set;
   const auto tell = [&](const char* stage, double share) {

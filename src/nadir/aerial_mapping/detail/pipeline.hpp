@@ -18,8 +18,9 @@ struct LocalSet {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< map = local + anchor
 };
 
-/// Throws Error (usage) where the set contradicts itself.
-LocalSet localise(const PhotoSet& photos);
+/// Throws Error (usage) where the set contradicts itself. The anchor follows from the positions
+/// unless it is given.
+LocalSet localise(const PhotoSet& photos, const Eigen::Vector3d* anchor = nullptr);
 
 /// Photos in, map out; keeps features and matches for the next run.
 class Pipeline {

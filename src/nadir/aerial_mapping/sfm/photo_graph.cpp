@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::size_t kFeatureMemory = 700U << 20U;  // bytes that all detectors together may use
 constexpr int kCoarseFeatures = 1200;
-constexpr std::size_t kCoarseMatches = 12;
-constexpr std::size_t kFewPhotos = 12;  // whose pairs are all tried in full
+constexpr std::size_t kCoarseMatches = 10;
 
 /// Counts finished work and passes the share on, from one thread at a time.
 class Counter {
@@ -77,10 +76,9 @@ void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share
     const Entry& second = photos_.at(set.photos[b].name);
     VerifiedPair& pair = found[k];
     const bool near = set.photos[a].prior.position && set.photos[b].prior.position;
-    const bool promising = near || set.photos.size() <= kFewPhotos ||
-                           match_features(first.features, second.features, *first.index,
-                                          *second.index, kCoarseFeatures)
-                                   .size() >= kCoarseMatches;
+    const bool promising = near || match_features(first.features, second.features, *first.index,
+                                                  *second.index, kCoarseFeatures)
+                                           .size() >= kCoarseMatches;
     if (promising)
       verify(first.features, second.features,
              match_features(first.features, second.features, *first.index, *second.index),

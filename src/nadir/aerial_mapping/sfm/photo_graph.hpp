@@ -28,7 +28,7 @@ class PhotoGraph {
   void detect(const PhotoSet& set, const Share& progress);
 
   /// Geometry of the pairs that have none yet. Pairs of photos that no position brought together
-  /// (`coarse`) are first tried with their largest features alone.
+  /// are first tried with their largest features alone. `set` is sorted by name.
   void match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress);
 
   /// Features of the photos of a set, in its order.

@@ -21,6 +21,7 @@ constexpr double kFlatness = 0.04;       // relief of the first round, in flying
 constexpr int kFewestObservations = 15;  // that hold a photo
 constexpr std::size_t kFewestForGuidance = 50;
 constexpr double kGuidanceMargin = 0.05;  // of the flying height
+constexpr std::size_t kNeighbours = 8;    // that a new photo moves
 constexpr double kNarrow = 0.15;          // width of a strip in lengths
 constexpr double kNadirSigmaDeg = 10.0;
 
@@ -105,6 +106,38 @@ class Reconstructor {
     return std::move(result_);
   }
 
+  Reconstruction from_known(const KnownPoses& known) {
+    std::copy_n(known.cameras.begin(), std::min(known.cameras.size(), model().cameras.size()),
+                model().cameras.begin());
+    std::vector<std::size_t> fresh;
+    for (std::size_t i = 0; i < set_.photos.size(); ++i) {
+      const auto found = known.poses.find(set_.photos[i].name);
+      if (found != known.poses.end())
+        model().poses[i] = found->second;
+      else
+        fresh.push_back(i);
+    }
+    triangulate(model(), {4.0, 1.0, 2});
+    update_ground(model(), state());
+    std::erase_if(fresh, [&](std::size_t i) {
+      return !resect(model(), i, kFewestObservations, 8.0, seed_of(set_.photos[i].name));
+    });
+    plan_.hold_cameras = true;
+    plan_.held.assign(set_.photos.size(), 1);
+    for (const std::size_t i : fresh) {
+      plan_.held[i] = 0;
+      for (const std::size_t j : neighbours_of(i)) plan_.held[j] = 0;
+    }
+    if (!fresh.empty()) {
+      local_round(4.0);
+      local_round(2.0);
+    }
+    triangulate(model(), {1.5, 1.0, 2});
+    update_ground(model(), state());
+    result_.scale_source = ScaleSource::kPositions;
+    return std::move(result_);
+  }
+
   Reconstruction from_given_poses() {
     for (std::size_t i = 0; i < set_.photos.size(); ++i) {
       const PhotoPose& given = *set_.photos[i].pose;
@@ -181,6 +214,28 @@ class Reconstructor {
     plan.hold_cameras = gate_px > 4.0;
     plan.cell_share = gate_px > 2.0 ? 1 : 2;
     adjust(model(), state(), set_, options_, plan);
+  }
+
+  void local_round(double gate_px) {
+    triangulate(model(), {gate_px, 1.0, 2});
+    AdjustmentPlan plan = plan_;
+    plan.loss_px = std::max(1.0, 0.5 * gate_px);
+    plan.max_iterations = 10;
+    plan.cell_share = 1;
+    adjust(model(), state(), set_, options_, plan);
+  }
+
+  /// The photos nearest to a known one.
+  std::vector<std::size_t> neighbours_of(std::size_t photo) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t j = 0; j < set_.photos.size(); ++j)
+      if (j != photo && model().poses[j].known)
+        others.emplace_back((model().poses[j].centre - model().poses[photo].centre).norm(), j);
+    std::sort(others.begin(), others.end());
+    others.resize(std::min(others.size(), kNeighbours));
+    std::vector<std::size_t> nearest;
+    for (const auto& [distance, j] : others) nearest.push_back(j);
+    return nearest;
   }
 
   /// Photos that their start left far from the others are found again from the others' points.
@@ -368,6 +423,12 @@ Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFea
                                  const std::vector<VerifiedPair>& pairs,
                                  const AerialMappingOptions& options) {
   return Reconstructor(set, features, pairs, options).from_given_poses();
+}
+
+Reconstruction reconstruct_next(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                                const std::vector<VerifiedPair>& pairs,
+                                const AerialMappingOptions& options, const KnownPoses& known) {
+  return Reconstructor(set, features, pairs, options).from_known(known);
 }
 
 }  // namespace nadir::aerial

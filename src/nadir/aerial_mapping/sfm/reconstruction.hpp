@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,18 @@ Reconstruction reconstruct(const PhotoSet& set, const std::vector<PhotoFeatures>
 Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                                  const std::vector<VerifiedPair>& pairs,
                                  const AerialMappingOptions& options);
+
+/// What an earlier reconstruction of some of the photos found.
+struct KnownPoses {
+  std::map<std::string, Pose> poses;  ///< by the photos' names
+  std::vector<CameraModel> cameras;   ///< as in the set, possibly fewer
+};
+
+/// Adds the photos that have no pose yet to those that have: their poses from the points of the
+/// others, then an adjustment of the new ones and their neighbours alone. For a map in the making:
+/// no surface points of its own, no uncertainty.
+Reconstruction reconstruct_next(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
+                                const std::vector<VerifiedPair>& pairs,
+                                const AerialMappingOptions& options, const KnownPoses& known);
 
 }  // namespace nadir::aerial
