@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nadir/map_matching/peaks.hpp"
+#include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
 namespace {
@@ -82,7 +83,9 @@ MatchCandidate climb(const MapIndex& map, const Template& local, const MatchCand
     for (const Eigen::Vector3d& offset : offsets) {
       poses.push_back(moved(centre, step_px * offset.cwiseProduct(unit)));
     }
-    const std::vector<PoseScore> scores = score_poses(map, local, poses);
+    const std::vector<PoseScore> scores =
+        backend_of(map.options()).score_poses(map, local, poses);  // exact
+
     for (std::size_t k = 0; k < scores.size(); ++k) {
       if (scores[k].score > best.score) {
         best = {poses[k], scores[k].score, scores[k].valid_weight};

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/map_matching/matching.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "nadir/core/error.hpp"
 #include "nadir/map_matching/channel.hpp"
+#include "nadir/map_matching/coarse_search.hpp"
 #include "nadir/map_matching/height_channel.hpp"
 #include "nadir/map_matching/peaks.hpp"
+#include "nadir/map_matching/pose_surfaces.hpp"
 #include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
@@ -69,6 +74,41 @@ Template as_template(ChannelImage channel) {
   return result;
 }
 
+/// Every position of the region at every heading.
+ScoreVolume score_volume(const MapIndex& map, const Template& local, const SearchRegion& region,
+                         double step) {
+  const PixelWindow window = pixel_window(map.channel(), region);
+  const GeoReference& geo = map.channel().geo;
+  ScoreVolume volume;
+  volume.geo = geo;
+  volume.geo.west = geo.x_at(window.left);
+  volume.geo.north = geo.y_at(window.top);
+  volume.yaws = headings(region, step);
+  const std::vector<RotatedTemplate> templates =
+      rotate_templates(local.channel, volume.yaws, geo.resolution, pixel_role(map.options()));
+  for (ScoreSurface& surface : backend_of(map.options()).score_surfaces(map, templates, window)) {
+    volume.score.push_back(std::move(surface.score));
+    volume.valid_weight.push_back(std::move(surface.valid_weight));
+  }
+  return volume;
+}
+
+bool goes_coarse_to_fine(const MapIndex& map, const Template& local, const SearchRegion& region,
+                         double step) {
+  constexpr double kLargeVolume = 1e7;   // positions x headings: 80 MB of scores
+  constexpr int kSmallestTemplate = 32;  // pixels a side: 8 at a quarter of the resolution
+  const MatchingOptions& options = map.options();
+  if (options.search != Search::kAuto) return options.search == Search::kCoarseToFine;
+  if (options.score != Score::kZncc && options.score != Score::kZwncc) return false;
+  if (std::min(local.channel.value.width(), local.channel.value.height()) < kSmallestTemplate) {
+    return false;
+  }
+  const PixelWindow window = pixel_window(map.channel(), region);
+  return static_cast<double>(window.width) * window.height *
+             static_cast<double>(headings(region, step).size()) >
+         kLargeVolume;
+}
+
 /// Why nothing was scored: too little overlap everywhere, or too little contrast.
 MatchStatus failure(const ScoreVolume& volume, double min_valid_weight) {
   for (const Raster<float>& surface : volume.valid_weight) {
@@ -107,6 +147,11 @@ std::string to_string(MatchStatus status) {
   return {};
 }
 
+struct MapIndex::Coarser {
+  std::once_flag once;
+  std::unique_ptr<const MapIndex> index;
+};
+
 MapIndex::MapIndex(const Orthomosaic& map, const MatchingOptions& options)
     : MapIndex(options, make_channel(map, options, "the map")) {}
 
@@ -128,7 +173,17 @@ MapIndex::MapIndex(const MatchingOptions& options, ChannelImage channel)
   }
   mean_grey_ = sum / count;
   quads_ = pack_quads(channel_.value, channel_.valid);
+  coarser_ = std::make_shared<Coarser>();
   prepared_ = backend_of(options_).prepare(*this);
+}
+
+const MapIndex& MapIndex::coarser() const {
+  std::call_once(coarser_->once, [this] {
+    MatchingOptions options = options_;
+    options.resolution_m *= 2.0;
+    coarser_->index.reset(new MapIndex(options, halved(channel_)));
+  });
+  return *coarser_->index;
 }
 
 Template make_template(const Orthomosaic& local, const MatchingOptions& options) {
@@ -142,31 +197,24 @@ Template make_template(const ElevationMap& local, const MatchingOptions& options
 MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region) {
   const double step = region.yaw_step_rad.value_or(radians(map.options().yaw_step_deg));
   check(region, step);
-  const PixelWindow window = pixel_window(map.channel(), region);
-  const GeoReference& geo = map.channel().geo;
-
   MatchResult result;
-  result.volume.geo = geo;
-  result.volume.geo.west = geo.x_at(window.left);
-  result.volume.geo.north = geo.y_at(window.top);
-  result.volume.yaws = headings(region, step);
-  std::vector<RotatedTemplate> templates;
-  for (const double yaw : result.volume.yaws) {
-    templates.push_back(
-        rotate_template(local.channel, yaw, geo.resolution, pixel_role(map.options())));
+  if (goes_coarse_to_fine(map, local, region, step)) {
+    const MapIndex& quarter = map.coarser().coarser();
+    const Template coarse{halved(halved(local.channel)), local.valid_share};
+    const double coarse_step =
+        std::max(step, coarse_yaw_step(local.channel, map.channel().geo.resolution));
+    result.volume = score_volume(quarter, coarse, region, coarse_step);
+    result.candidates = refine_coarse(map, local, result.volume);
+  } else {
+    result.volume = score_volume(map, local, region, step);
+    result.candidates = find_peaks(result.volume, map.options());
+    for (MatchCandidate& candidate : result.candidates) {
+      candidate = climb(map, local, candidate, result.volume.yaws.size() > 1);
+    }
+    std::stable_sort(
+        result.candidates.begin(), result.candidates.end(),
+        [](const MatchCandidate& a, const MatchCandidate& b) { return a.score > b.score; });
   }
-  for (ScoreSurface& surface : backend_of(map.options()).score_surfaces(map, templates, window)) {
-    result.volume.score.push_back(std::move(surface.score));
-    result.volume.valid_weight.push_back(std::move(surface.valid_weight));
-  }
-
-  result.candidates = find_peaks(result.volume, map.options());
-  for (MatchCandidate& candidate : result.candidates) {
-    candidate = climb(map, local, candidate, result.volume.yaws.size() > 1);
-  }
-  std::stable_sort(
-      result.candidates.begin(), result.candidates.end(),
-      [](const MatchCandidate& a, const MatchCandidate& b) { return a.score > b.score; });
   if (result.candidates.empty()) {
     result.status = failure(result.volume, map.options().min_valid_weight);
     return result;
@@ -179,6 +227,9 @@ MatchResult match(const MapIndex& map, const Template& local, const SearchRegion
 
 std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
                                    std::span<const Pose2> map_from_robot) {
+  if (takes_surfaces(map, local, map_from_robot)) {
+    return score_by_surfaces(map, local, map_from_robot);
+  }
   return backend_of(map.options()).score_poses(map, local, map_from_robot);
 }
 

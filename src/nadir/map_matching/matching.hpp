@@ -44,8 +44,11 @@ class MapIndex {
   double mean_grey() const { return mean_grey_; }  ///< of the channel's valid pixels
   const Quads& quads() const { return quads_; }    ///< the channel, packed for bilinear sampling
   PreparedMap* prepared() const { return prepared_.get(); }  ///< the backend's; may be null
+  /// The same map at half the resolution; computed when first asked for, kept from then on.
+  const MapIndex& coarser() const;
 
  private:
+  struct Coarser;
   MapIndex(const MatchingOptions& options, ChannelImage channel);
 
   MatchingOptions options_;
@@ -53,6 +56,7 @@ class MapIndex {
   double mean_grey_ = 0.0;
   Quads quads_;
   std::shared_ptr<PreparedMap> prepared_;
+  std::shared_ptr<Coarser> coarser_;  ///< shared by copies: they are of the same map
 };
 
 /// A local map, prepared to be matched: the same channel at the same resolution. Its geo-reference
@@ -103,7 +107,9 @@ struct MatchResult {
   ScoreVolume volume;
 };
 
-/// Scores every robot position of the region at every heading.
+/// Scores every robot position of the region at every heading, or, for a large region, at a quarter
+/// of the resolution and then around the best places (MatchingOptions::search): the volume is then
+/// the coarse one.
 MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region);
 
 /// A score of one pose; NaN where it is undefined.
@@ -112,7 +118,7 @@ struct PoseScore {
   double valid_weight = 0.0;
 };
 
-/// Scores given poses exactly: the map is sampled (bilinear) under every template pixel.
+/// Scores given poses as MatchingOptions::pose_scoring says.
 std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
                                    std::span<const Pose2> map_from_robot);
 

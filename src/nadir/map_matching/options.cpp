@@ -44,6 +44,17 @@ void declare(OptionTable& table, MatchingOptions& options) {
       stage + "backend", options.backend, kBackendNames,
       "Implementation; cuda needs a GPU, reference is slow, in double, and obviously "
       "right.");
+  table.choice<Search>(stage + "search", options.search, kSearchNames,
+                       "How a search goes over positions and headings; auto is coarse to fine "
+                       "where there are more than ten million of them and the score is zncc or "
+                       "zwncc.",
+                       "docs/performance.md");
+  table.choice<PoseScoring>(
+      stage + "pose_scoring", options.pose_scoring, kPoseScoringNames,
+      "How particles are scored: exactly, or interpolated between score "
+      "surfaces; auto interpolates where that costs a quarter for their number and "
+      "spread.",
+      "docs/performance.md");
   table.number(stage + "resolution_m", options.resolution_m, {0.005, 10.0},
                "Metres per pixel at which both maps are compared.", "paper, section II");
   table.number(stage + "high_pass_sigma_m", options.high_pass_sigma_m, {0.1, 50.0},

@@ -58,6 +58,26 @@ enum class Layers {
 inline constexpr std::array<std::pair<Layers, const char*>, 3> kLayersNames{
     {{Layers::kBoth, "both"}, {Layers::kColour, "colour"}, {Layers::kHeight, "height"}}};
 
+/// How a search goes over its window and headings.
+enum class Search {
+  kAuto,          ///< coarse to fine where the volume is large and the score is zncc or zwncc
+  kFull,          ///< every position and heading at full resolution
+  kCoarseToFine,  ///< the best places of a quarter of the resolution, refined in two steps
+};
+inline constexpr std::array<std::pair<Search, const char*>, 3> kSearchNames{
+    {{Search::kAuto, "auto"}, {Search::kFull, "full"}, {Search::kCoarseToFine, "coarse_to_fine"}}};
+
+/// How the poses of particles are scored.
+enum class PoseScoring {
+  kAuto,     ///< interpolated where that costs a quarter of exact scores
+  kExact,    ///< the map is sampled under every template pixel of every pose
+  kSurface,  ///< interpolated between score surfaces of a few headings
+};
+inline constexpr std::array<std::pair<PoseScoring, const char*>, 3> kPoseScoringNames{
+    {{PoseScoring::kAuto, "auto"},
+     {PoseScoring::kExact, "exact"},
+     {PoseScoring::kSurface, "surface"}}};
+
 struct MatchingOptions {
   Layers layers = Layers::kBoth;
   Score score = Score::kZwncc;
@@ -65,6 +85,8 @@ struct MatchingOptions {
   HoleTreatment holes = HoleTreatment::kMasked;
   PaperWeight paper_weight = PaperWeight::kLiteral;
   Backend backend = Backend::kCpu;
+  Search search = Search::kAuto;
+  PoseScoring pose_scoring = PoseScoring::kAuto;
   double resolution_m = 0.10;
   double high_pass_sigma_m = 1.5;
   double height_sigma_m = 3.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/map_matching/rotated_template.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -131,6 +133,16 @@ RotatedTemplate rotate_template(const ChannelImage& local, double yaw_rad, doubl
     }
   }
   return turned;
+}
+
+std::vector<RotatedTemplate> rotate_templates(const ChannelImage& local,
+                                              std::span<const double> yaws_rad,
+                                              double map_resolution, const PixelRole& role) {
+  std::vector<RotatedTemplate> templates(yaws_rad.size());
+  tbb::parallel_for(std::size_t{0}, templates.size(), [&](std::size_t k) {
+    templates[k] = rotate_template(local, yaws_rad[k], map_resolution, role);
+  });
+  return templates;
 }
 
 }  // namespace nadir

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "nadir/map_matching/matching.hpp"
 
 namespace nadir {
@@ -35,5 +38,9 @@ struct RotatedTemplate {
 };
 RotatedTemplate rotate_template(const ChannelImage& local, double yaw_rad, double map_resolution,
                                 const PixelRole& role);
+/// The same for many headings, in parallel.
+std::vector<RotatedTemplate> rotate_templates(const ChannelImage& local,
+                                              std::span<const double> yaws_rad,
+                                              double map_resolution, const PixelRole& role);
 
 }  // namespace nadir

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/map_matching/coarse_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nadir/map_matching/peaks.hpp"
+#include "nadir/map_matching/resample.hpp"
+#include "nadir/map_matching/surface.hpp"
+
+namespace nadir {
+namespace {
+
+constexpr int kCoarsePlaces = 64;
+constexpr int kFinePlaces = 8;  // or as many candidates as are asked for
+
+double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// The best of `places`, best first, no two of which are closer than both limits.
+std::vector<MatchCandidate> best_places(std::vector<MatchCandidate> places, std::size_t count,
+                                        double separation, double yaw_separation) {
+  std::stable_sort(
+      places.begin(), places.end(),
+      [](const MatchCandidate& a, const MatchCandidate& b) { return a.score > b.score; });
+  std::vector<MatchCandidate> best;
+  for (const MatchCandidate& place : places) {
+    if (best.size() >= count) break;
+    const bool separate = std::all_of(best.begin(), best.end(), [&](const MatchCandidate& other) {
+      return distance(place.map_from_robot, other.map_from_robot) >= separation ||
+             std::abs(wrap_angle(place.map_from_robot.yaw - other.map_from_robot.yaw)) >
+                 yaw_separation;
+    });
+    if (separate) best.push_back(place);
+  }
+  return best;
+}
+
+/// A grid of poses around a place.
+struct Grid {
+  int positions = 0;  ///< steps to each side along x and y
+  double step = 0.0;  ///< metres
+  int headings = 0;   ///< steps to each side
+  double yaw_step = 0.0;
+};
+
+/// Every place moved to the best exact score of the grid around it; places without any are dropped.
+std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& local,
+                                        const std::vector<MatchCandidate>& places,
+                                        const Grid& grid) {
+  std::vector<Pose2> poses;
+  for (const MatchCandidate& place : places) {
+    for (int k = -grid.headings; k <= grid.headings; ++k) {
+      for (int j = -grid.positions; j <= grid.positions; ++j) {
+        for (int i = -grid.positions; i <= grid.positions; ++i) {
+          poses.push_back({place.map_from_robot.x + i * grid.step,
+                           place.map_from_robot.y + j * grid.step,
+                           wrap_angle(place.map_from_robot.yaw + k * grid.yaw_step)});
+        }
+      }
+    }
+  }
+  const std::vector<PoseScore> scores = backend_of(map.options()).score_poses(map, local, poses);
+  const std::size_t per_place = places.empty() ? 1 : poses.size() / places.size();
+  std::vector<MatchCandidate> best;
+  for (std::size_t begin = 0; begin < poses.size(); begin += per_place) {
+    std::size_t top = begin;
+    for (std::size_t i = begin; i < begin + per_place; ++i) {
+      if (scores[i].score > scores[top].score || std::isnan(scores[top].score)) top = i;
+    }
+    if (std::isnan(scores[top].score)) continue;
+    best.push_back({poses[top], scores[top].score, scores[top].valid_weight});
+  }
+  return best;
+}
+
+}  // namespace
+
+ChannelImage halved(const ChannelImage& channel) {
+  GreyImage grey{Raster<float>(channel.value.width(), channel.value.height()), channel.valid,
+                 channel.geo};
+  std::copy(channel.value.values().begin(), channel.value.values().end(),
+            grey.value.values().begin());
+  grey = resample(grey, 2.0 * channel.geo.resolution);
+  ChannelImage half{Raster<std::uint8_t>(grey.value.width(), grey.value.height()),
+                    std::move(grey.valid), grey.geo};
+  for (std::size_t i = 0; i < half.value.values().size(); ++i) {
+    if (half.valid.values()[i] == 0) continue;
+    half.value.values()[i] =
+        static_cast<std::uint8_t>(std::lround(std::clamp(grey.value.values()[i], 1.0F, 255.0F)));
+  }
+  return half;
+}
+
+double coarse_yaw_step(const ChannelImage& local, double resolution) {
+  const double radius = 0.25 * (local.value.width() + local.value.height()) * local.geo.resolution;
+  return std::min(1.2 * 4.0 * resolution / radius, kPi / 8.0);
+}
+
+std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& local,
+                                          const ScoreVolume& volume) {
+  const MapIndex& half_map = map.coarser();
+  const Template half{halved(local.channel), local.valid_share};
+  const double resolution = map.channel().geo.resolution;
+  const double yaw_step = volume.yaws.size() > 1 ? volume.yaws[1] - volume.yaws[0] : 0.0;
+  const int turns = volume.yaws.size() > 1 ? 1 : 0;
+
+  MatchingOptions many = map.options();
+  many.candidates = 16 * kCoarsePlaces;
+  many.peak_separation_m = 0.0;
+  std::vector<MatchCandidate> places =
+      best_places(find_peaks(volume, many), kCoarsePlaces, 2.0 * 4.0 * resolution, 2.5 * yaw_step);
+  places = best_around(
+      half_map, half, places,
+      {.positions = 2, .step = 2.0 * resolution, .headings = turns, .yaw_step = yaw_step / 3.0});
+  const auto fine = static_cast<std::size_t>(std::max(kFinePlaces, map.options().candidates));
+  places = best_places(std::move(places), fine, map.options().peak_separation_m, kPi);
+  places = best_around(
+      map, local, places,
+      {.positions = 2, .step = resolution, .headings = 2 * turns, .yaw_step = yaw_step / 6.0});
+  for (MatchCandidate& place : places) place = climb(map, local, place, turns > 0);
+  return best_places(std::move(places), static_cast<std::size_t>(map.options().candidates),
+                     map.options().peak_separation_m, kPi);
+}
+
+}  // namespace nadir
