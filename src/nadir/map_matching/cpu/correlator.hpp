@@ -53,6 +53,7 @@ class Correlator {
   Correlator(int width, int height);
 
   const FftSize& size() const { return size_; }
+  std::size_t lanes() const { return kernels_->lanes(); }
   /// Bytes that one correlation of `products` with `locals` templates of `local_rows` rows needs.
   std::size_t scratch_bytes(std::size_t products, std::size_t locals, std::size_t local_rows,
                             std::size_t window_rows) const;
