@@ -33,6 +33,7 @@ THIRD_PARTIES = {
     "fmt": r"fmt/",
     "OpenSSL": r"openssl/",
     "CLI11": r"CLI/",
+    "cpp-httplib": r"httplib\.h$",
     "Ceres": r"ceres/",
     "CUDA": r"(cuda|cufft)\w*\.h$|cub/|thrust/",
     "ROS bag": r"(rosbag|ros|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|tf2_msgs)/",
@@ -48,7 +49,7 @@ ALLOWED = {
     "report": COMPUTING | {"fmt"},
     "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX", "ROS bag"},
     ROOT: COMPUTING,
-    APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "POSIX"},
+    APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "cpp-httplib", "POSIX"},
 }
 
 FILES = {"filesystem", "fstream"}

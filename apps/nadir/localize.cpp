@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "add_verb.hpp"
 #include "localize_job.hpp"
+#include "nadir/core/error.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
+#include "viewer/server_options.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -10,6 +12,10 @@ namespace {
 int run(const LocalizeOptions& options, const Invocation& invocation) {
   require_device(invocation.common);
   const ThreadLimit limit(invocation.common);
+  if (options.serve && options.seeds > 1) {
+    throw Error(ErrorKind::kUsage, "one seed at a time can be watched", "--serve --seeds",
+                "leave one of them out");
+  }
   LocalizeJob job(options, invocation, limit.threads());
   if (invocation.common.dry_run) return job.explain();
   return job.run();
@@ -49,6 +55,15 @@ void add_start(CLI::App& verb, LocalizeOptions& options) {
       ->capture_default_str();
 }
 
+void add_serving(CLI::App& verb, LocalizeOptions& options) {
+  CLI::Option* serve = verb.add_flag("--serve", options.serve,
+                                     "Let browsers watch, and set the pose; goes on until Ctrl-C");
+  verb.add_option("--rate", options.rate_hz, "At most this many frames a second (0: all it can)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->needs(serve);
+  for (CLI::Option* option : add_server_options(verb, options.server)) option->needs(serve);
+}
+
 }  // namespace
 
 void add_localize(CLI::App& program, Invocation& invocation) {
@@ -56,6 +71,7 @@ void add_localize(CLI::App& program, Invocation& invocation) {
                                                    "Follow the robot through the map", run);
   add_inputs(*verb, options);
   add_start(*verb, options);
+  add_serving(*verb, options);
   add_option_sources(*verb, options.sources);
   add_option_flag(*verb, options.sources, "--score", "map_matching.score");
   add_option_flag(*verb, options.sources, "--layers", "map_matching.layers");
@@ -68,6 +84,7 @@ void add_localize(CLI::App& program, Invocation& invocation) {
       "  nadir localize out/site -o out/run --prior truth --seed 3 --frames 160:224 --json\n"
       "  nadir localize out/site -o out/paper --preset paper --score wncc --prior truth --seeds "
       "20\n"
+      "  nadir localize out/site -o out/run --prior truth --serve --rate 5\n"
       "RUN holds trajectory.tum (pose of the robot in the map), covariance.csv, frames.csv,\n"
       "timing.csv, manifest.json and figures; with --seeds, a folder seed_K for each seed.\n");
 }

@@ -20,6 +20,7 @@
 #include "site.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
+#include "viewer/server_options.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -98,8 +99,10 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
         options_.seeds == 1 ? folder : folder / seed_folder(seed);
     create_folder(run_folder);
     ParticleKeeper particles(run_folder);
-    const RunPlan plan{map,   surface, sequence_,          frames_,     effective_.values(),
-                       start, seed,    use_odometry_file_, {&particles}};
+    std::vector<RunObserver*> observers{&particles};
+    if (live_) observers.push_back(live_.get());
+    const RunPlan plan{map,   surface, sequence_,          frames_,  effective_.values(),
+                       start, seed,    use_odometry_file_, observers};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
@@ -156,12 +159,24 @@ int LocalizeJob::run() {
   const Stopwatch stopwatch;
   OutputFolder output(options_.run, invocation_.common, inputs());
   const Orthomosaic map = read_orthomosaic(map_file_);
+  if (options_.serve) {
+    live_ = std::make_unique<LiveView>(RunSources{options_.site, map_file_}, effective_.values(),
+                                       output.staging() / "particles.bin", options_.server,
+                                       options_.rate_hz);
+    warn_where_open(options_.server, invocation_.common.quiet);
+    print_note("watch at " + live_->url(), false);
+  }
   const std::vector<SeedRun> runs = run_seeds(map, output.staging());
   if (runs.empty()) throw Interrupted{};
   draw(map, runs.front(), output.staging());
   write_summary_files(runs, output.staging(), stopwatch.seconds());
   output.commit();
   report(runs);
+  if (live_ && !interrupted()) {
+    print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);
+    live_->serve_until_interrupted();
+    return 0;
+  }
   if (interrupted()) return kInterruptedExitCode;
   if (std::ranges::any_of(runs, [](const SeedRun& run) { return run.result.answered() > 0; })) {
     return 0;

@@ -8,6 +8,7 @@
 #include "effective_options.hpp"
 #include "output_folder.hpp"
 #include "seed_run.hpp"
+#include "viewer/live_view.hpp"
 
 namespace nadir::cli {
 
@@ -20,6 +21,9 @@ struct LocalizeOptions {
   std::string odometry = "auto";
   PriorOptions start;
   int seeds = 1;
+  bool serve = false;  ///< let browsers watch
+  double rate_hz = 0.0;
+  ServerOptions server;
   OptionSources sources;
 };
 
@@ -52,6 +56,7 @@ class LocalizeJob {
   std::optional<std::filesystem::path> surface_file_;
   bool use_odometry_file_;
   std::vector<std::string> figures_;
+  std::unique_ptr<LiveView> live_;
 };
 
 }  // namespace nadir::cli

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_view.hpp"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "../site.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/input_file.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How far around the estimate a heat map looks.
+constexpr double kHeatHalfSize = 8.0;
+
+EncodedImage encode_png(const cv::Mat& image) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  return {"image/png", {bytes.begin(), bytes.end()}};
+}
+
+/// Blue, green, red, alpha.
+cv::Mat with_alpha(const Orthomosaic& ortho) {
+  cv::Mat image(ortho.height(), ortho.width(), CV_8UC4);
+  const int channels = ortho.image.channels();
+  for (int row = 0; row < ortho.height(); ++row) {
+    for (int column = 0; column < ortho.width(); ++column) {
+      const auto value = [&](int channel) {
+        return ortho.image.at(column, row, channels == 3 ? channel : 0);
+      };
+      const bool seen = ortho.valid.at(column, row) != 0;
+      image.at<cv::Vec4b>(row, column) =
+          cv::Vec4b(value(2), value(1), value(0), seen ? std::uint8_t{255} : std::uint8_t{0});
+    }
+  }
+  return image;
+}
+
+Json read_manifest(const fs::path& run) {
+  const fs::path file = run / "manifest.json";
+  if (!fs::is_regular_file(file)) {
+    throw Error(ErrorKind::kInput, "holds no manifest.json", run.string(),
+                "give a folder that `nadir localize` wrote");
+  }
+  Json manifest = Json::parse(read_file(file), nullptr, false);
+  if (!manifest.is_object()) {
+    throw Error(ErrorKind::kInput, "is not JSON", file.string(), "run localize again");
+  }
+  return manifest;
+}
+
+fs::path source(const Json& manifest, const char* role, const fs::path& given,
+                const fs::path& run) {
+  const fs::path named =
+      !given.empty()
+          ? given
+          : fs::path(manifest.value("sources", Json::object()).value(role, std::string{}));
+  if (!named.empty() && fs::exists(named)) return named;
+  const std::string what =
+      named.empty() ? std::string("does not say where its ") + role + " is"
+                    : std::string("its ") + role + " " + named.string() + " is not there any more";
+  throw Error(ErrorKind::kInput, what, run.string(), std::string("give --") + role);
+}
+
+/// The matching options of the run; one that this version does not know is left at its default.
+LocalizerOptions options_of(const Json& manifest) {
+  LocalizerOptions options;
+  OptionTable table = option_table(options);
+  const Json values = manifest.value("options", Json::object());
+  for (const auto& [name, entry] : values.items()) {
+    if (table.find(name) == nullptr || !entry.contains("value")) continue;
+    const Json& value = entry["value"];
+    const std::string text = value.is_string()    ? value.get<std::string>()
+                             : value.is_boolean() ? (value.get<bool>() ? "on" : "off")
+                                                  : value.dump();
+    table.set(name, text);
+  }
+  return options;
+}
+
+/// The runs of several seeds lie in folders of their own: the first one is shown.
+fs::path run_folder(const fs::path& run) {
+  if (fs::exists(run / "trajectory.tum")) return run;
+  std::vector<fs::path> seeds;
+  for (const auto& entry : fs::directory_iterator(run)) {
+    if (fs::exists(entry.path() / "trajectory.tum")) seeds.push_back(entry.path());
+  }
+  if (seeds.empty()) {
+    throw Error(ErrorKind::kInput, "holds no trajectory.tum", run.string(),
+                "give a folder that `nadir localize` wrote");
+  }
+  return *std::ranges::min_element(seeds);
+}
+
+}  // namespace
+
+std::string base64(std::string_view bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                                     reinterpret_cast<const unsigned char*>(bytes.data()),
+                                     static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(length));
+  return text;
+}
+
+RunView::RunView(const RunSources& sources, const LocalizerOptions& options,
+                 const fs::path& particle_file, bool live)
+    : sources_(sources),
+      sequence_(read_sequence(sources.site)),
+      options_(options),
+      particle_file_(particle_file),
+      tiles_(std::make_unique<MapTiles>(sources.map)),
+      live_(live) {}
+
+std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) {
+  if (!fs::is_directory(run)) {
+    throw Error(ErrorKind::kInput, "no such folder", run.string(),
+                "give a folder that `nadir localize` wrote");
+  }
+  const Json manifest = read_manifest(run);
+  sources.site = source(manifest, "site", sources.site, run);
+  sources.map = source(manifest, "map", sources.map, run);
+  const fs::path folder = run_folder(run);
+  auto view =
+      std::make_unique<RunView>(sources, options_of(manifest), folder / "particles.bin", false);
+  const Json settings{{"version", manifest.value("version", "")},
+                      {"arguments", manifest.value("arguments", Json::array())},
+                      {"started", manifest.value("started", "")},
+                      {"seed", manifest.value("seed", 0U)},
+                      {"threads", manifest.value("threads", 0)},
+                      {"options", manifest.value("options", Json::object())}};
+  view->settings_ = settings.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (ViewFrame& frame : read_view_frames(folder)) {
+    frame.truth = truth_at(view->sequence_, frame.stamp);
+    view->add(std::move(frame));
+  }
+  return view;
+}
+
+void RunView::add(ViewFrame frame) {
+  {
+    // At once, and not when first asked: the file of a live run changes its name when the run ends.
+    const std::scoped_lock lock(particles_mutex_);
+    if (!particles_ && fs::exists(particle_file_)) {
+      particles_ = std::make_unique<ParticleLogReader>(particle_file_);
+    }
+  }
+  const std::scoped_lock lock(mutex_);
+  frames_.push_back(std::move(frame));
+}
+
+void RunView::finish() {
+  const std::scoped_lock lock(mutex_);
+  live_ = false;
+}
+
+bool RunView::live() const {
+  const std::scoped_lock lock(mutex_);
+  return live_;
+}
+
+std::size_t RunView::size() const {
+  const std::scoped_lock lock(mutex_);
+  return frames_.size();
+}
+
+std::optional<ViewFrame> RunView::frame_at(std::size_t frame) const {
+  const std::scoped_lock lock(mutex_);
+  if (frame >= frames_.size()) return std::nullopt;
+  return frames_[frame];
+}
+
+/// The odometry, laid onto the first estimate; the caller holds the mutex.
+Json RunView::odometry_track() const {
+  Json track = Json::array();
+  if (!sequence_.odometry || frames_.empty()) return track;
+  const Odometry& odometry = *sequence_.odometry;
+  const auto at = [&](Stamp stamp) {
+    return std::ranges::lower_bound(odometry, stamp, {}, &StampedPose<frames::Odom>::stamp);
+  };
+  const auto first = at(frames_.front().stamp);
+  if (first == odometry.end()) return track;
+  const auto map_from_odom = frames_.front().map_from_robot * first->pose.inverse();
+  for (auto pose = first; pose != odometry.end() && pose->stamp <= frames_.back().stamp; ++pose) {
+    const Pose2 placed = map_from_odom * pose->pose;
+    track.push_back({placed.x, placed.y});
+  }
+  return track;
+}
+
+Json RunView::document() const {
+  const GeoReference& geo = tiles_->geo();
+  Json document{{"name", sequence_.name}, {"settings", Json::parse(settings_)}};
+  document["map"] = {{"width", tiles_->width()},
+                     {"height", tiles_->height()},
+                     {"west", geo.west},
+                     {"north", geo.north},
+                     {"resolution", geo.resolution},
+                     {"levels", tiles_->levels()},
+                     {"tile_size", MapTiles::kTileSize},
+                     {"has_crs", !geo.crs.empty()}};
+  const std::scoped_lock lock(mutex_);
+  document["live"] = live_;
+  document["odometry"] = odometry_track();
+  document["frames"] = Json::array();
+  for (const ViewFrame& frame : frames_) document["frames"].push_back(to_json(frame));
+  return document;
+}
+
+std::optional<std::vector<LoggedParticle>> RunView::particles(std::size_t frame) const {
+  const std::scoped_lock lock(particles_mutex_);
+  if (!particles_ || !frame_at(frame)) return std::nullopt;
+  auto particles = particles_->read(frame);
+  if (!particles) return std::nullopt;
+  // Relative to the map's corner, which the client knows, and not to the log's own anchor.
+  const Point2<frames::Map> anchor = particles_->anchor();
+  for (LoggedParticle& particle : *particles) {
+    particle.x += static_cast<float>(anchor.x - tiles_->geo().west);
+    particle.y += static_cast<float>(anchor.y - tiles_->geo().north);
+  }
+  return particles;
+}
+
+std::optional<RunView::LocalMapImage> RunView::local_map(std::size_t frame) const {
+  const auto wanted = frame_at(frame);
+  if (!wanted) return std::nullopt;
+  const auto found =
+      std::ranges::find(sequence_.local_maps, wanted->number, &Sequence::LocalMap::number);
+  if (found == sequence_.local_maps.end()) return std::nullopt;
+  const Orthomosaic local = read_orthomosaic(found->image);
+  return LocalMapImage{encode_png(with_alpha(local)), local.geo, local.width(), local.height()};
+}
+
+std::optional<Json> RunView::heat_map(std::size_t frame) const {
+  const auto wanted = frame_at(frame);
+  if (!wanted) return std::nullopt;
+  const auto found =
+      std::ranges::find(sequence_.local_maps, wanted->number, &Sequence::LocalMap::number);
+  if (found == sequence_.local_maps.end()) return std::nullopt;
+  const std::scoped_lock lock(index_mutex_);
+  if (!index_)
+    index_ = std::make_unique<MapIndex>(read_orthomosaic(sources_.map), options_.matching);
+  const Template local = make_template(read_orthomosaic(found->image), options_.matching);
+  const Pose2& pose = wanted->map_from_robot;
+  const MatchResult result =
+      match(*index_, local, {Point2<frames::Map>{pose.x, pose.y}, kHeatHalfSize, pose.yaw, 0.0});
+  if (result.volume.score.empty()) return std::nullopt;
+  const Raster<float> best = result.volume.best_over_headings();
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  for (const float score : best.values()) {
+    if (std::isnan(score)) continue;
+    low = std::min(low, score);
+    high = std::max(high, score);
+  }
+  if (!(low < high)) return std::nullopt;
+  cv::Mat grey(best.height(), best.width(), CV_8UC4, cv::Scalar::all(0));
+  for (int row = 0; row < best.height(); ++row) {
+    for (int column = 0; column < best.width(); ++column) {
+      const float score = best.at(column, row);
+      if (std::isnan(score)) continue;
+      const auto level =
+          static_cast<std::uint8_t>(std::lround(255.0F * (score - low) / (high - low)));
+      grey.at<cv::Vec4b>(row, column) = cv::Vec4b(level, level, level, 255);
+    }
+  }
+  const GeoReference& geo = result.volume.geo;
+  return Json{{"west", geo.west},
+              {"north", geo.north},
+              {"resolution", geo.resolution},
+              {"width", best.width()},
+              {"height", best.height()},
+              {"lowest", low},
+              {"highest", high},
+              {"png", base64(encode_png(grey).bytes)}};
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../particle_log.hpp"
+#include "../streams.hpp"
+#include "nadir/io/map_tiles.hpp"
+#include "nadir/io/sequence.hpp"
+#include "nadir/localizer.hpp"
+#include "view_frames.hpp"
+
+namespace nadir::cli {
+
+/// Where a run was made, for the pictures that belong to it.
+struct RunSources {
+  std::filesystem::path site;
+  std::filesystem::path map;
+};
+
+/// A run as the viewer sees it, finished or still growing: frames, particles, local maps, score
+/// heat maps and the tiles of the map. May be asked from several threads.
+class RunView {
+ public:
+  /// An empty run that will grow by add(). Throws Error (input) where site or map cannot be read.
+  RunView(const RunSources& sources, const LocalizerOptions& options,
+          const std::filesystem::path& particle_file, bool live);
+  /// A finished run. Where the manifest's site or map has moved, `sources` says where to; else they
+  /// are empty. Throws Error (input).
+  static std::unique_ptr<RunView> open(const std::filesystem::path& run, RunSources sources);
+
+  void add(ViewFrame frame);
+  void finish();
+
+  /// The whole run but for particles and pictures: see docs/viewer.md, /api/run.
+  Json document() const;
+  std::optional<std::vector<LoggedParticle>> particles(std::size_t frame) const;
+  /// The local map of a frame, PNG with alpha, and where it lies in the robot frame.
+  struct LocalMapImage {
+    EncodedImage image;
+    GeoReference geo;
+    int width = 0;
+    int height = 0;
+  };
+  std::optional<LocalMapImage> local_map(std::size_t frame) const;
+  /// Scores around the estimate of a frame, at its heading: geo, size, range, and a PNG.
+  std::optional<Json> heat_map(std::size_t frame) const;
+  MapTiles& tiles() const { return *tiles_; }
+  bool live() const;
+  std::size_t size() const;
+
+ private:
+  std::optional<ViewFrame> frame_at(std::size_t frame) const;
+  Json odometry_track() const;
+
+  RunSources sources_;
+  Sequence sequence_;
+  LocalizerOptions options_;
+  std::filesystem::path particle_file_;
+  std::unique_ptr<MapTiles> tiles_;
+  std::string settings_ = "{}";  ///< what the manifest says, as JSON
+  mutable std::mutex mutex_;
+  std::vector<ViewFrame> frames_;
+  bool live_ = false;
+  mutable std::mutex particles_mutex_;
+  std::unique_ptr<ParticleLogReader> particles_;
+  mutable std::mutex index_mutex_;
+  mutable std::unique_ptr<MapIndex> index_;  ///< made when the first heat map is asked for
+};
+
+/// Of at most 2 GiB.
+std::string base64(std::string_view bytes);
+
+}  // namespace nadir::cli
