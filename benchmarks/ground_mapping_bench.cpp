@@ -2,17 +2,18 @@
 // Ground mapping on the real stereo sequences: time by stage for one and two threads, coverage,
 // odd against even frames, colour rules compared. Prints the report as Markdown.
 //
-//   ground_mapping_bench DATA [--pictures FOLDER]
+//   ground_mapping_bench DATA [--pictures FOLDER] [--quick] [--set NAME=VALUE]...
 
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,11 +87,47 @@ double cpu_seconds() {
          1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
-void print_times(const Drive& drive, double scale) {
+struct Arguments {
+  fs::path data;
+  fs::path pictures;
+  bool quick = false;  ///< coverage and the default rule alone
+  GroundMappingOptions mapping;
+  RenderOptions rendering;
+};
+
+Arguments parse(std::span<char*> words) {
+  Arguments arguments;
+  OptionTable table;
+  declare(table, arguments.mapping);
+  declare(table, arguments.rendering);
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string word = words[i];
+    if (word == "--quick") {
+      arguments.quick = true;
+    } else if (word == "--pictures" && i + 1 < words.size()) {
+      arguments.pictures = words[++i];
+    } else if (word == "--set" && i + 1 < words.size()) {
+      const std::string setting = words[++i];
+      const std::size_t equals = setting.find('=');
+      table.set(setting.substr(0, equals),
+                equals == std::string::npos ? "" : setting.substr(equals + 1), "--set");
+    } else {
+      arguments.data = word;
+    }
+  }
+  if (arguments.data.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "usage: ground_mapping_bench DATA [--pictures FOLDER] "
+                "[--quick] [--set NAME=VALUE]...");
+  }
+  return arguments;
+}
+
+void print_times(const Drive& drive, const Arguments& arguments, double scale) {
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    GroundMappingOptions options;
+    GroundMappingOptions options = arguments.mapping;
     options.image_scale = scale;
     GroundMapper mapper(drive.rig, options);
     std::map<std::string, std::vector<double>> ms;
@@ -120,104 +157,115 @@ void print_times(const Drive& drive, double scale) {
   }
 }
 
-LocalMap map_of(const Drive& drive, const GroundMappingOptions& options, bool print_growth) {
-  GroundMapper mapper(drive.rig, options);
-  if (print_growth) std::printf("| %s |", drive.name.c_str());
+/// A row of the table of coverage; the map at the end.
+LocalMap print_growth(const Drive& drive, const Arguments& arguments) {
+  GroundMapper mapper(drive.rig, arguments.mapping);
+  std::printf("| %s |", drive.name.c_str());
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-    const FrameStatistics s = mapper.integrate(drive.frames[i], drive.poses[i]);
-    if (std::getenv("NADIR_VERBOSE")) {
-      std::fprintf(stderr,
-                   "%zu in %ld drop nd %ld rg %ld h %ld out %ld tx %ld sp %ld gate %ld | new %d "
-                   "upd %d rej %d repl %d clr %d innov %.3f %.3f gain %.3f\n",
-                   i, s.points_in, s.dropped.no_disparity, s.dropped.range, s.dropped.height,
-                   s.dropped.outside, s.dropped.texture, s.dropped.sparse, s.dropped.gate,
-                   s.cells_new, s.cells_updated, s.cells_rejected, s.cells_replaced,
-                   s.cells_cleared, s.innovation_median_m, s.innovation_p90_m, s.exposure_gain);
-      for (const auto& w : s.warnings) std::fprintf(stderr, "   %s\n", w.c_str());
+    const FrameStatistics statistics = mapper.integrate(drive.frames[i], drive.poses[i]);
+    for (const std::string& warning : statistics.warnings) {
+      std::fprintf(stderr, "%s, frame %zu: %s\n", drive.name.c_str(), i, warning.c_str());
     }
-    if (print_growth && (i == 0 || i == 4 || i == 9 || i == 19 || i + 1 == drive.frames.size())) {
-      const LocalMap map = mapper.render({});
+    if (i == 0 || i == 4 || i == 9 || i == 19 || i + 1 == drive.frames.size()) {
+      const LocalMap map = mapper.render(arguments.rendering);
       std::printf(" %.1f / %.1f |", 100 * map.coverage, 100 * coverage_of(map, 9.0));
     }
   }
-  if (print_growth) std::printf("\n");
+  RenderOptions unmasked = arguments.rendering;
+  unmasked.ground_only = false;
+  const LocalMap map = mapper.render(unmasked);
+  std::printf(" %.1f / %.1f |\n", 100 * map.coverage, 100 * coverage_of(map, 9.0));
   std::fflush(stdout);
-  return mapper.render({});
+  return mapper.render(arguments.rendering);
 }
 
 void print_consistency(const Drive& drive, const std::string& label,
-                       const std::function<void(GroundMappingOptions&)>& change) {
-  GroundMappingOptions options;
-  change(options);
+                       const GroundMappingOptions& options, const RenderOptions& rendering) {
   OddEvenCheck check(drive.rig, options);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     check.integrate(drive.frames[i], drive.poses[i]);
   }
-  const MapComparison c = check.compare({});
+  const MapComparison c = check.compare(rendering);
   std::printf("| %s | %s | %.3f | %d, %d | %.1f / %.1f | %.0f |\n", drive.name.c_str(),
               label.c_str(), c.zncc, c.shift_columns, c.shift_rows, 100 * c.height_median_m,
               100 * c.height_p90_m, 100 * c.overlap);
   std::fflush(stdout);
 }
 
-void write_picture(const LocalMap& map, const fs::path& file) {
-  Raster<std::uint8_t> picture(map.ortho.width(), map.ortho.height(), 0, 4);
+/// Five times enlarged, holes in magenta: to be looked at. `heights`: 1 m is 85 grey values, the
+/// robot's ground 85.
+void write_picture(const LocalMap& map, const fs::path& file, bool heights) {
+  constexpr int kScale = 5;
+  Raster<std::uint8_t> picture(map.ortho.width() * kScale, map.ortho.height() * kScale, 0, 3);
   for (int row = 0; row < picture.height(); ++row) {
     for (int column = 0; column < picture.width(); ++column) {
+      const int x = column / kScale, y = row / kScale;
+      const float height = map.elevation.height_m.at(x, y);
+      const auto shade = static_cast<std::uint8_t>(
+          std::isnan(height) ? 0.0F : std::clamp(85.0F * height + 85.0F, 0.0F, 255.0F));
+      const bool hole = heights ? std::isnan(height) : map.ortho.valid.at(x, y) == kHole;
       for (int c = 0; c < 3; ++c) {
-        picture.at(column, row, c) =
-            map.ortho.image.at(column, row, std::min(c, map.ortho.image.channels() - 1));
+        const int channel = std::min(c, map.ortho.image.channels() - 1);
+        const std::uint8_t magenta = c == 1 ? 0 : 255;
+        const std::uint8_t value = heights ? shade : map.ortho.image.at(x, y, channel);
+        picture.at(column, row, c) = hole ? magenta : value;
       }
-      picture.at(column, row, 3) = map.ortho.valid.at(column, row) == kHole ? 0 : 255;
     }
   }
   write_png(file, picture);
 }
 
+void report(const Arguments& arguments) {
+  std::vector<Drive> drives;
+  for (const char* name : {"straight_street", "odometry_01"}) {
+    drives.push_back(read_drive(arguments.data / "kitti_stereo" / name));
+  }
+  if (!arguments.quick) {
+    std::printf("## Time, ms a frame (median), without decoding\n\n");
+    std::printf(
+        "| drive | pixels | threads | rectify | depth | points | aggregate | fuse | clean | "
+        "total | CPU | frames/s |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const Drive& drive : drives) {
+      for (const double scale : {1.0, 0.5}) print_times(drive, arguments, scale);
+    }
+  }
+  std::printf(
+      "\n## Coverage of the robot-centred square of 18 m / 9 m, %%, after so many frames\n\n");
+  std::printf(
+      "| drive | 1 | 5 | 10 | 20 | 51 | 51, heights not masked |\n|---|---|---|---|---|---|---|\n");
+  for (const Drive& drive : drives) {
+    const LocalMap map = print_growth(drive, arguments);
+    if (!arguments.pictures.empty()) {
+      write_picture(map, arguments.pictures / (drive.name + ".png"), false);
+      write_picture(map, arguments.pictures / (drive.name + "_height.png"), true);
+    }
+  }
+  std::printf("\n## Even frames against odd frames, 18 m square at the last pose\n\n");
+  std::printf(
+      "| drive | rule | ZNCC | shift, px | height difference median / p90, cm | overlap, %% "
+      "|\n|---|---|---|---|---|---|\n");
+  for (const Drive& drive : drives) {
+    for (const auto& [rule, name] : kColourRuleNames) {
+      if (rule == ColourRule::kAuto || (arguments.quick && rule != ColourRule::kMean)) continue;
+      GroundMappingOptions options = arguments.mapping;
+      options.colour_rule = rule;
+      print_consistency(drive, name, options, arguments.rendering);
+    }
+    GroundMappingOptions options = arguments.mapping;
+    options.image_scale *= 0.5;
+    print_consistency(drive, "mean, half-size images", options, arguments.rendering);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("\nLargest resident memory %.0f MB, with all images of both drives in it.\n",
+              static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: ground_mapping_bench DATA [--pictures FOLDER]\n");
-    return 2;
-  }
   try {
-    std::vector<Drive> drives;
-    for (const char* name : {"straight_street", "odometry_01"}) {
-      drives.push_back(read_drive(fs::path(argv[1]) / "kitti_stereo" / name));
-    }
-    std::printf("## Time, ms a frame (median), without decoding\n\n");
-    std::printf(
-        "| drive | pixels | threads | rectify | depth | points | aggregate | fuse | clean | total "
-        "| CPU | frames/s |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (const Drive& drive : drives) {
-      print_times(drive, 1.0);
-      print_times(drive, 0.5);
-    }
-    std::printf(
-        "\n## Coverage of the robot-centred square of 18 m / 9 m, %%, after so many frames\n\n");
-    std::printf("| drive | 1 | 5 | 10 | 20 | 51 |\n|---|---|---|---|---|---|\n");
-    for (const Drive& drive : drives) {
-      const LocalMap map = map_of(drive, {}, true);
-      if (argc > 3) write_picture(map, fs::path(argv[3]) / (drive.name + ".png"));
-    }
-    std::printf("\n## Even frames against odd frames, 18 m square at the last pose\n\n");
-    std::printf(
-        "| drive | rule | ZNCC | shift, px | height difference median / p90, cm | overlap, %% "
-        "|\n|---|---|---|---|---|---|\n");
-    for (const Drive& drive : drives) {
-      for (const auto& [rule, name] : kColourRuleNames) {
-        if (rule == ColourRule::kAuto) continue;
-        const ColourRule r = rule;
-        print_consistency(drive, name, [r](GroundMappingOptions& o) { o.colour_rule = r; });
-      }
-      print_consistency(drive, "mean, half-size images",
-                        [](GroundMappingOptions& o) { o.image_scale = 0.5; });
-    }
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    std::printf("\nLargest resident memory %.0f MB, with all images of both drives in it.\n",
-                static_cast<double>(usage.ru_maxrss) / 1024.0);
+    report(parse({argv, static_cast<std::size_t>(argc)}));
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.kind());

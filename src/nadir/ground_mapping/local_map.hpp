@@ -26,8 +26,8 @@ struct RenderOptions {
   double size_y_m = 18.0;
   double resolution_m = 0.10;
   MapUp up = MapUp::kRobot;
-  /// Leaves out what stands higher than `ground_only_height_m` above the robot's ground: walls and
-  /// hedges are seen from the side and smear.
+  /// Leaves out what stands higher than `ground_only_height_m` above the plane that the robot
+  /// stands on: walls and hedges are seen from the side and smear.
   bool ground_only = true;
   double ground_only_height_m = 1.0;
   /// Below this share of measured pixels a map is flagged (the first metres of a drive).
@@ -54,8 +54,8 @@ struct LocalMap {
   ElevationMap elevation;  ///< above the robot's ground; also where a gap was filled
   double coverage = 0.0;   ///< share of the pixels that are no hole
   bool low_coverage = true;  ///< coverage < RenderOptions::low_coverage
-  /// Height of the ground at the robot in the odometry frame, from the cells nearest to it; absent
-  /// while none was seen. Poses need not know how high the camera stands.
+  /// Height of the ground at the robot in the odometry frame, from the cells around it; absent
+  /// while too few were seen. Poses need not know how high the camera stands.
   std::optional<double> ground_in_odom_m = std::nullopt;
 };
 

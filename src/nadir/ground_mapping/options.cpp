@@ -121,8 +121,10 @@ void declare(OptionTable& table, RenderOptions& options) {
                       "Orientation of a local map: the robot's, or that of the odometry frame.");
   table.flag(stage + "ground_only", options.ground_only,
              "Leave out what stands higher than ground_only_height_m over the ground.");
-  table.number(stage + "ground_only_height_m", options.ground_only_height_m, {0.05, 100.0},
-               "Height over the robot's ground up to which a cell counts as ground, metres.");
+  table.number(
+      stage + "ground_only_height_m", options.ground_only_height_m, {0.05, 100.0},
+      "Height over the plane that the robot stands on, up to which a cell counts as ground, "
+      "metres.");
   table.number(stage + "low_coverage", options.low_coverage, {0.0, 1.0},
                "Share of seen pixels below which a local map is flagged.");
 }

@@ -49,7 +49,7 @@ struct GroundMappingOptions {
   // height
   double height_gate_below_m = 3.5;
   double height_gate_above_m = 0.5;
-  double height_sigma_m = 0.01;
+  double height_sigma_m = 0.03;
   double attitude_sigma_deg = 0.05;
   double gate_sigma = 3.0;
   double min_height_variance_m2 = 1e-4;

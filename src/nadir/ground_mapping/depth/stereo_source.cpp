@@ -146,7 +146,7 @@ StereoSource::StereoSource(const StereoRig& rig, const GroundMappingOptions& opt
   max_range_ = options.max_range_m > 0.0
                    ? options.max_range_m
                    : std::sqrt(options.max_depth_sigma_m * geometry.focal_baseline /
-                               options.disparity_sigma_px);
+                               options.disparity_sigma_px / options.image_scale);
   if (max_range_ <= min_range_) {
     throw Error(ErrorKind::kUsage,
                 "the stereo pair measures from " + to_text(min_range_) +

@@ -114,7 +114,7 @@ double colour_inversely(ElevationGrid& grid, const Measurement& measurement, dou
       const CellIndex index{first.x + static_cast<std::int64_t>(i), y};
       const Cell& cell = grid.at(index);
       double height = cell.height;
-      if (!cell.known()) {
+      if (!cell.established()) {
         const auto filled = filled_height(grid, index, options.fill_cells);
         if (!filled) continue;
         height = *filled;

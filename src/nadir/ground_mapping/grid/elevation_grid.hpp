@@ -21,12 +21,14 @@ struct Cell {
   float best_weight = 0.0F;       ///< of a single frame
   std::uint32_t seen_ms = 0;      ///< when last measured, since the map began
   std::uint32_t odometer_mm = 0;  ///< where on the way
-  std::uint16_t views = 0;        ///< frames that agreed on `height`
+  std::uint16_t views = 0;        ///< frames that agreed on `height`; 0 = a single point so far
   std::uint16_t second_views = 0;
   std::uint8_t seen_through = 0;  ///< frames since the last agreement whose rays passed below
   std::uint8_t judged = 0;        ///< the last frame (its number's low bits) that had a say in that
 
   bool known() const { return !std::isnan(height); }
+  /// Known, and by more than a single point that might be a false match.
+  bool established() const { return views > 0; }
 };
 
 /// The index of a cell in the plane of the odometry frame: the square [i, i + 1) x resolution.

@@ -72,7 +72,7 @@ struct Update {
     cell.height = static_cast<float>(measured);
     cell.variance =
         std::max(m.variance + m.spread, static_cast<float>(options.min_height_variance_m2));
-    cell.views = 1;
+    cell.views = m.points < min_points ? 0 : 1;
   }
 
   void take(Cell& cell, CellMeasurement& m, double distance_squared, BandResult& result) const;
@@ -101,22 +101,21 @@ void Update::oppose(Cell& cell, double measured, CellMeasurement& m, BandResult&
 void Update::take(Cell& cell, CellMeasurement& m, double distance_squared,
                   BandResult& result) const {
   const double measured = sensor.z() + static_cast<double>(m.height);
-  if (!cell.known()) {
-    if (m.points < min_points) {
-      result.sparse_points += m.points;
-      return;
-    }
+  const double growth = cell.known() ? predicted_growth(cell, distance_squared) : 0.0;
+  const double innovation = measured - static_cast<double>(cell.height);
+  const bool agreed =
+      cell.known() && agrees(innovation, static_cast<double>(cell.variance) + growth, m);
+  if (!cell.established() && !agreed) {  // nothing is lost by beginning anew
+    if (m.points < min_points) result.sparse_points += m.points;
     begin(cell, measured, m);
     cell.judged = now.frame;
     ++result.created;
     m.accepted = true;
   } else {
-    const double growth = predicted_growth(cell, distance_squared);
     cell.variance = static_cast<float>(cell.variance + growth);
     cell.second_variance = static_cast<float>(cell.second_variance + growth);
-    const double innovation = measured - static_cast<double>(cell.height);
     result.innovations.push_back(static_cast<float>(std::abs(innovation)));
-    if (agrees(innovation, cell.variance, m)) {
+    if (agreed) {
       kalman(cell.height, cell.variance, measured, m.variance);
       cell.views = std::min<std::uint16_t>(static_cast<std::uint16_t>(cell.views + 1), kMostViews);
       if (cell.second_views > 0) --cell.second_views;

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,36 +28,41 @@ struct Sample {
 
 class Sampler {
  public:
-  Sampler(const ElevationGrid& grid, int fill_cells, double highest)
-      : grid_(grid), fill_cells_(fill_cells), highest_(highest) {}
+  /// `plane`: what lies higher than `highest` over it is left out; nullptr = all is shown.
+  Sampler(const ElevationGrid& grid, int fill_cells, const OdomPose2& robot,
+          const GroundPlane* plane, double highest)
+      : grid_(grid), fill_cells_(fill_cells), robot_(robot), plane_(plane), highest_(highest) {}
 
-  /// The ground at a place of the odometry frame.
+  /// The ground at a place of the odometry frame: measured, where known cells have at least half of
+  /// the bilinear weight; else filled, where the gap is small.
   Sample at(double x, double y) const {
-    Sample sample;
+    Sample sample = blend(x, y);
+    if (!std::isnan(sample.height)) return sample;
     const CellIndex nearest = grid_.index_of(x, y);
     const Cell* cell = grid_.find(nearest);
-    if (cell == nullptr) return sample;
-    if (!cell->known()) {
-      const auto height = filled_height(grid_, nearest, fill_cells_);
-      if (!height || static_cast<double>(*height) > highest_) return sample;
-      sample.height = *height;
-      sample.filled = true;
-      set_colour(sample, *cell);
-      return sample;
-    }
-    if (static_cast<double>(cell->height) > highest_) return sample;
-    blend(sample, x, y, cell->weight > 0.0F);
+    if (cell == nullptr || cell->established()) return sample;
+    const auto height = filled_height(grid_, nearest, fill_cells_);
+    if (!height || stands_out(*height, x, y)) return sample;
+    sample.height = *height;
+    sample.filled = true;
+    set_colour(sample, *cell);
     return sample;
   }
 
  private:
+  bool stands_out(float height, double x, double y) const {
+    return plane_ != nullptr &&
+           static_cast<double>(height) > plane_->at(x - robot_.x, y - robot_.y) + highest_;
+  }
+
   static void set_colour(Sample& sample, const Cell& cell) {
     if (cell.weight <= 0.0F) return;
     sample.weight = cell.weight;
     sample.colour = {cell.red / cell.weight, cell.green / cell.weight, cell.blue / cell.weight};
   }
 
-  void blend(Sample& sample, double x, double y, bool coloured) const {
+  Sample blend(double x, double y) const {
+    Sample sample;
     const double u = x / grid_.resolution() - 0.5;
     const double v = y / grid_.resolution() - 0.5;
     const CellIndex low{static_cast<std::int64_t>(std::floor(u)),
@@ -68,12 +74,10 @@ class Sampler {
       const int i = k % 2, j = k / 2;
       const double part = (i == 0 ? 1.0 - fx : fx) * (j == 0 ? 1.0 - fy : fy);
       const Cell* cell = grid_.find({low.x + i, low.y + j});
-      if (cell == nullptr || !cell->known() || static_cast<double>(cell->height) > highest_) {
-        continue;
-      }
+      if (cell == nullptr || !cell->established() || stands_out(cell->height, x, y)) continue;
       height += part * static_cast<double>(cell->height);
       share += part;
-      if (!coloured || cell->weight <= 0.0F) continue;
+      if (cell->weight <= 0.0F) continue;
       const double scale = part / static_cast<double>(cell->weight);
       colour[0] += scale * static_cast<double>(cell->red);
       colour[1] += scale * static_cast<double>(cell->green);
@@ -81,16 +85,22 @@ class Sampler {
       weight += part * static_cast<double>(cell->weight);
       colour_share += part;
     }
-    if (share > 0.0) sample.height = static_cast<float>(height / share);
-    if (colour_share <= 0.0) return;
+    // Half a cell's share may be missing by rounding where a pixel lies between two cells.
+    constexpr double kHalf = 0.5 - 1e-6;
+    if (share < kHalf) return sample;
+    sample.height = static_cast<float>(height / share);
+    if (colour_share < kHalf) return sample;
     sample.weight = static_cast<float>(weight / colour_share);
     for (std::size_t c = 0; c < 3; ++c) {
       sample.colour[c] = static_cast<float>(colour[c] / colour_share);
     }
+    return sample;
   }
 
   const ElevationGrid& grid_;
   int fill_cells_;
+  OdomPose2 robot_;
+  const GroundPlane* plane_;
   double highest_;
 };
 
@@ -130,7 +140,7 @@ int known_along(const ElevationGrid& grid, CellIndex from, int dx, int dy, int m
   for (int i = 1; i <= most; ++i) {
     const Cell* cell = grid.find({from.x + dx * i, from.y + dy * i});
     if (cell == nullptr) return 0;
-    if (cell->known()) return i;
+    if (cell->established()) return i;
   }
   return 0;
 }
@@ -186,30 +196,69 @@ void put(LocalMap& map, int column, int row, const Sample& sample, double ground
   }
 }
 
-}  // namespace
+constexpr std::size_t kFewestForPlane = 100;
+constexpr double kSteepest = 0.3;
 
-std::optional<double> ground_height(const ElevationGrid& grid, const OdomPose3& odom_from_robot) {
-  constexpr double kHalfWidth = 1.0, kReach = 12.0, kBehind = 2.0;
-  constexpr std::size_t kEnough = 60;
-  const OdomPose2 robot = planar(odom_from_robot);
+struct GroundSample {
+  Eigen::Vector3d place;  ///< from the robot, along the axes of the odometry frame; z absolute
+  double weight;
+};
+
+/// The known cells of the strip that the robot drives along; the nearer, the heavier.
+std::vector<GroundSample> strip(const ElevationGrid& grid, const OdomPose2& robot, double reach) {
+  constexpr double kHalfWidth = 2.0, kBehind = 4.0, kNear = 3.0;
   const double step = grid.resolution();
-  std::vector<float> heights;
-  for (double reach = step; reach <= kReach; reach += step) {
-    const auto look = [&](double x) {
-      for (double y = -kHalfWidth; y <= kHalfWidth; y += step) {
-        const auto p = robot * Point2<frames::Robot>{x, y};
-        const Cell* cell = grid.find(grid.index_of(p.x, p.y));
-        if (cell != nullptr && cell->known()) heights.push_back(cell->height);
-      }
-    };
-    look(reach);
-    if (reach <= kBehind) look(-reach);
-    if (heights.size() >= kEnough) break;
+  const auto along = static_cast<int>((kBehind + reach) / step);
+  const auto across = static_cast<int>(2.0 * kHalfWidth / step);
+  std::vector<GroundSample> samples;
+  for (int i = 0; i <= along; ++i) {
+    for (int j = 0; j <= across; ++j) {
+      const double x = i * step - kBehind, y = j * step - kHalfWidth;
+      const auto p = robot * Point2<frames::Robot>{x, y};
+      const Cell* cell = grid.find(grid.index_of(p.x, p.y));
+      if (cell == nullptr || !cell->established()) continue;
+      samples.push_back({{p.x - robot.x, p.y - robot.y, static_cast<double>(cell->height)},
+                         1.0 / (1.0 + (x * x + y * y) / (kNear * kNear))});
+    }
   }
-  if (heights.empty()) return std::nullopt;
+  return samples;
+}
+
+/// Least squares, repeated without what lies off the last plane: kerbs, walls, cars.
+GroundPlane fit_plane(const std::vector<GroundSample>& samples) {
+  std::vector<double> heights;
+  for (const GroundSample& s : samples) heights.push_back(s.place.z());
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  GroundPlane plane{*middle, 0.0, 0.0};
+  for (const double tolerance : {0.8, 0.3, 0.15}) {
+    Eigen::Matrix3d a =
+        Eigen::Vector3d(1e-3, 1.0, 1.0).asDiagonal();  // level unless told otherwise
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const GroundSample& s : samples) {
+      const double off = s.place.z() - plane.at(s.place.x(), s.place.y());
+      if (std::abs(off) > tolerance) continue;
+      const Eigen::Vector3d row(1.0, s.place.x(), s.place.y());
+      a += s.weight * row * row.transpose();
+      b += s.weight * (s.place.z() - *middle) * row;
+    }
+    const Eigen::Vector3d x = a.ldlt().solve(b);
+    plane = {*middle + x[0], std::clamp(x[1], -kSteepest, kSteepest),
+             std::clamp(x[2], -kSteepest, kSteepest)};
+  }
+  return plane;
+}
+
+}  // namespace
+
+std::optional<GroundPlane> ground_plane(const ElevationGrid& grid,
+                                        const OdomPose3& odom_from_robot) {
+  const OdomPose2 robot = planar(odom_from_robot);
+  for (const double reach : {6.0, 12.0}) {
+    const std::vector<GroundSample> samples = strip(grid, robot, reach);
+    if (samples.size() >= kFewestForPlane) return fit_plane(samples);
+  }
+  return std::nullopt;
 }
 
 std::optional<float> filled_height(const ElevationGrid& grid, CellIndex index, int fill_cells) {
@@ -235,13 +284,12 @@ LocalMap render(const ElevationGrid& grid, const OdomPose3& odom_from_robot,
                 const RenderOptions& options, int channels, int fill_cells) {
   check_fits(grid, options);
   LocalMap map = frame_of(grid, odom_from_robot, options, channels);
-  map.ground_in_odom_m = ground_height(grid, odom_from_robot);
-  const double ground = map.ground_in_odom_m.value_or(odom_from_robot.translation.z());
-  const double highest = options.ground_only && map.ground_in_odom_m
-                             ? ground + options.ground_only_height_m
-                             : std::numeric_limits<double>::infinity();
-  const Sampler sampler(grid, fill_cells, highest);
   OdomPose2 robot = planar(odom_from_robot);
+  const auto plane = ground_plane(grid, odom_from_robot);
+  if (plane) map.ground_in_odom_m = plane->height;
+  const double ground = map.ground_in_odom_m.value_or(odom_from_robot.translation.z());
+  const Sampler sampler(grid, fill_cells, robot, options.ground_only && plane ? &*plane : nullptr,
+                        options.ground_only_height_m);
   if (options.up == MapUp::kOdom) robot.yaw = 0.0;
   const int parts =
       std::max(1, static_cast<int>(std::ceil(options.resolution_m / grid.resolution() - 1e-9)));
