@@ -17,9 +17,10 @@ void declare_depth(OptionTable& table, GroundMappingOptions& options) {
                "Scale at which stereo images are matched; 0.5 is four to five times faster and a "
                "little blurred.",
                "docs/ground-mapping.md");
-  table.integer(stage + "disparities", options.disparities, {0.0, 1024.0},
-                "Disparities searched, pixels, rounded up to a multiple of 16; 0 = a tenth of the "
-                "image width, or what min_range_m needs.");
+  table.integer(
+      stage + "disparities", options.disparities, {0.0, 1024.0},
+      "Disparities searched, pixels, rounded up to a multiple of 16; 0 = what min_range_m "
+      "needs, else a tenth of the image width or more for ground that is nearer.");
   table.integer(stage + "block_size", options.block_size, {3.0, 9.0},
                 "Side of the matching block, pixels, odd.",
                 "opencv issue 5036: artefacts above 11");

@@ -36,7 +36,7 @@ struct GroundMappingOptions {
   int disparities = 0;
   int block_size = 5;
   double disparity_sigma_px = 0.5;
-  double max_depth_sigma_m = 0.5;
+  double max_depth_sigma_m = 0.8;
   double min_range_m = 0.0;
   double max_range_m = 0.0;
   double texture_std = 1.0;

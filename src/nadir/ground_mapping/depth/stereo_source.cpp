@@ -10,6 +10,7 @@
 
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
+#include "nadir/ground_mapping/depth/horizon.hpp"
 #include "nadir/ground_mapping/depth/images.hpp"
 #include "nadir/ground_mapping/depth/stopwatch.hpp"
 #include "nadir/ground_mapping/stereo_order.hpp"
@@ -21,7 +22,8 @@ namespace {
 constexpr int kSubPixels = 16;
 /// SGBM is not repeatable where the image is hardly wider than the search (opencv issue 25828).
 constexpr int kWidthBeyondSearch = 32;
-constexpr int kRowsPerStripe = 16;
+/// A camera that stands lower, metres, is one whose height nobody gave.
+constexpr double kLowestCamera = 0.1;
 /// A saturated pixel says little about the colour.
 constexpr int kSaturated = 250;
 constexpr float kSaturatedWeight = 0.2F;
@@ -32,8 +34,25 @@ int round_up(double value, int multiple) {
   return multiple * static_cast<int>(std::ceil(value / multiple - 1e-9));
 }
 
+/// The disparity of the ground in the lowest row of a robot that stands level; 0 where the rig does
+/// not say how high the camera is, or does not look down there.
+double disparity_of_nearest_ground(const RectifiedGeometry& geometry) {
+  const CameraModel& camera = geometry.left;
+  const Eigen::Vector3d ray =
+      geometry.robot_from_left.rotation *
+      camera.ray({0.5 * (camera.width - 1), static_cast<double>(camera.height - 1)});
+  const double height = geometry.robot_from_left.translation.z();
+  if (height < kLowestCamera || ray.z() >= 0.0) return 0.0;
+  const double depth = height / -ray.z();
+  return geometry.focal_baseline / depth - geometry.disparity_offset;
+}
+
 int disparities_for(const RectifiedGeometry& geometry, const GroundMappingOptions& options) {
-  int count = round_up(geometry.left.width / 10.0, kSubPixels);
+  // What is nearer than the search reaches is not left out but matched wrongly: the search takes in
+  // the nearest ground where that is known, up to a quarter of the width.
+  const double width = geometry.left.width;
+  const double nearest_ground = std::min(1.05 * disparity_of_nearest_ground(geometry), width / 4.0);
+  int count = round_up(std::max(width / 10.0, nearest_ground), kSubPixels);
   if (options.min_range_m > 0.0) {
     const double nearest = geometry.focal_baseline / options.min_range_m;
     count = round_up(nearest - geometry.disparity_offset, kSubPixels);
@@ -106,26 +125,6 @@ double median_depth(const cv::Mat& disparity, const RectifiedGeometry& geometry)
 
 }  // namespace
 
-int first_ground_row(const CameraModel& camera, const Eigen::Matrix3d& odom_from_camera) {
-  // Up in the camera's axes; a ray r looks below the horizon where up . r < 0.
-  const Eigen::Vector3d up = odom_from_camera.row(2).transpose();
-  const auto below = [&](double column, double row) {
-    return up.x() * (column - camera.cx) / camera.fx + up.y() * (row - camera.cy) / camera.fy +
-               up.z() <
-           0.0;
-  };
-  int first = camera.height;
-  for (const double column : {0.0, camera.width - 1.0}) {
-    for (int row = 0; row < first; ++row) {
-      if (below(column, row)) first = row;
-    }
-  }
-  if (first == camera.height) return first;
-  // The margin gives the matching a run-up; a coarse step lets it keep its buffers.
-  const int margin = camera.height / 20;
-  return std::max(0, first - margin) / kRowsPerStripe * kRowsPerStripe;
-}
-
 struct StereoSource::Pixels {
   cv::Mat left;       ///< colours
   cv::Mat disparity;  ///< CV_16S, 16ths of a pixel
@@ -156,7 +155,7 @@ StereoSource::StereoSource(const StereoRig& rig, const GroundMappingOptions& opt
                 {}, "raise ground_mapping.disparities or ground_mapping.max_range_m");
   }
   const int block = options.block_size;
-  matcher_ = cv::StereoSGBM::create(0, disparities_, block, 8 * block * block, 32 * block * block,
+  matcher_ = cv::StereoSGBM::create(0, disparities_, block, 2 * block * block, 32 * block * block,
                                     1, 31, 8, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 

@@ -41,8 +41,4 @@ class StereoSource {
 };
 static_assert(DepthSource<StereoSource>);
 
-/// The first row that looks below the horizon, less a margin; the height of the image where none
-/// does. Exposed for the tests.
-int first_ground_row(const CameraModel& camera, const Eigen::Matrix3d& odom_from_camera);
-
 }  // namespace nadir::ground
