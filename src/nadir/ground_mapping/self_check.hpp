@@ -25,7 +25,7 @@ struct MapComparison {
 MapComparison compare_local_maps(const LocalMap& a, const LocalMap& b, int max_shift_px = 10);
 
 /// What to say where the comparison tells that the poses do not fit the images; nothing where they
-/// fit. A wrong pose file raises the height disagreement six- to sevenfold and displaces the best
+/// fit. A wrong pose file raises the height disagreement two- to sevenfold and displaces the best
 /// correlation, while the correlation itself falls by a tenth only.
 std::optional<std::string> pose_misfit(const MapComparison& comparison);
 
