@@ -28,9 +28,6 @@ struct ScoreSurface {
 /// under its owner's lock, so that matches in one map can run on several threads.
 class PreparedMap {
  public:
-  PreparedMap() = default;
-  PreparedMap(const PreparedMap&) = delete;
-  PreparedMap& operator=(const PreparedMap&) = delete;
   virtual ~PreparedMap() = default;
 };
 

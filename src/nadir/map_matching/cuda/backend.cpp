@@ -72,11 +72,10 @@ void upload_turned(Device& device, const Batch& batch, std::span<const RotatedTe
   std::fill_n(staged, count, TurnedPixel{});
   for (int k = 0; k < batch.count; ++k) {
     const RotatedTemplate& local = templates[static_cast<std::size_t>(batch.first + k)];
+    TurnedPixel* own = staged + static_cast<std::size_t>(k) * pixels;
     for (int row = 0; row < local.value.height(); ++row) {
-      TurnedPixel* to = staged + static_cast<std::size_t>(k) * pixels +
-                        static_cast<std::size_t>(local.top - box.top + row) *
-                            static_cast<std::size_t>(box.width) +
-                        (local.left - box.left);
+      const std::ptrdiff_t down = local.top - box.top + row;
+      TurnedPixel* to = own + down * box.width + (local.left - box.left);
       for (int column = 0; column < local.value.width(); ++column) {
         to[column] = {local.value.at(column, row), local.mask.at(column, row),
                       local.weight.at(column, row), local.seen.at(column, row)};

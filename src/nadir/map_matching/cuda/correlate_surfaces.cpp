@@ -85,8 +85,8 @@ void prepare_transforms(Device& device, StreamWork& work, PlaneShape shape, int 
 }
 
 std::size_t bytes_per_template(const SurfaceJob& job, const PlaneShape& shape) {
-  const auto planes = static_cast<std::size_t>(template_planes(job.rule.formula) +
-                                               product_planes(job.rule.formula));
+  const auto planes = static_cast<std::size_t>(template_planes(job.rule.formula)) +
+                      static_cast<std::size_t>(product_planes(job.rule.formula));
   const auto plane = static_cast<std::size_t>(shape.reals()) * sizeof(float);
   const auto window =
       static_cast<std::size_t>(job.window.width) * static_cast<std::size_t>(job.window.height);

@@ -11,13 +11,13 @@ struct PlaneShape {
   int width = 0;
   int height = 0;
   NADIR_HOST_DEVICE int half() const { return width / 2 + 1; }
+  /// Reals from row to row.
+  NADIR_HOST_DEVICE std::int64_t pitch() const { return std::int64_t{2} * half(); }
   NADIR_HOST_DEVICE std::int64_t complexes() const {
     return static_cast<std::int64_t>(half()) * height;
   }
   NADIR_HOST_DEVICE std::int64_t reals() const { return 2 * complexes(); }
-  NADIR_HOST_DEVICE std::int64_t at(int column, int row) const {
-    return static_cast<std::int64_t>(row) * 2 * half() + column;
-  }
+  NADIR_HOST_DEVICE std::int64_t at(int column, int row) const { return row * pitch() + column; }
 };
 
 /// Into 0 .. size - 1.
@@ -53,8 +53,8 @@ struct MapPlanes {
 
   NADIR_HOST_DEVICE std::int64_t items() const { return shape.reals(); }
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    const auto column = static_cast<int>(item % (2 * shape.half()));
-    const auto row = static_cast<int>(item / (2 * shape.half()));
+    const auto column = static_cast<int>(item % shape.pitch());
+    const auto row = static_cast<int>(item / shape.pitch());
     std::uint8_t grey = 0;
     if (column < crop.width && row < crop.height) {
       grey = map[static_cast<std::int64_t>(crop.top + row) * map_width + crop.left + column];
@@ -81,8 +81,8 @@ struct TemplatePlanes {
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
     const auto which = static_cast<int>(item / shape.reals());
     const std::int64_t at = item % shape.reals();
-    const auto plane_column = static_cast<int>(at % (2 * shape.half()));
-    const auto plane_row = static_cast<int>(at / (2 * shape.half()));
+    const auto plane_column = static_cast<int>(at % shape.pitch());
+    const auto plane_row = static_cast<int>(at / shape.pitch());
     const int column = wrap(plane_column - box.left, shape.width);
     const int row = wrap(plane_row - box.top, shape.height);
     TurnedPixel pixel;
@@ -91,7 +91,7 @@ struct TemplatePlanes {
     }
     const float p = pixel.mask * (pixel.value - stats[which].mean) / kGreyScale;
     const float ap = pixel.seen * p;
-    float* own = planes + which * template_planes(formula) * shape.reals() + at;
+    float* own = planes + std::int64_t{which} * template_planes(formula) * shape.reals() + at;
     own[0] = pixel.seen;
     own[shape.reals()] = ap;
     own[2 * shape.reals()] = ap * p;

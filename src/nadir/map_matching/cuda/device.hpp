@@ -32,9 +32,6 @@ inline constexpr bool kReduces =
 /// Real two-dimensional transforms of many planes at once, in place and not normalised.
 class BatchedFft {
  public:
-  BatchedFft() = default;
-  BatchedFft(const BatchedFft&) = delete;
-  BatchedFft& operator=(const BatchedFft&) = delete;
   virtual ~BatchedFft() = default;
   virtual void forward(float* planes) = 0;
   virtual void inverse(float* planes) = 0;
@@ -47,9 +44,6 @@ class Device {
  public:
   static constexpr int kStreams = 2;
 
-  Device() = default;
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
   virtual ~Device() = default;
 
   virtual std::string name() const = 0;
@@ -73,7 +67,7 @@ class Device {
 };
 
 /// Memory that grows and is kept: of the device, or of the host for staging.
-template <class T, bool kStaging = false>
+template <class T, bool Staged = false>
 class Memory {
  public:
   explicit Memory(Device& device) : device_(&device) {}
@@ -93,7 +87,7 @@ class Memory {
     if (count <= capacity_) return data_;
     release();
     const std::size_t bytes = count * sizeof(T);
-    data_ = static_cast<T*>(kStaging ? device_->allocate_staging(bytes) : device_->allocate(bytes));
+    data_ = static_cast<T*>(Staged ? device_->allocate_staging(bytes) : device_->allocate(bytes));
     capacity_ = count;
     return data_;
   }
@@ -101,7 +95,7 @@ class Memory {
  private:
   void release() noexcept {
     if (data_ == nullptr) return;
-    kStaging ? device_->release_staging(data_) : device_->release(data_);
+    Staged ? device_->release_staging(data_) : device_->release(data_);
     data_ = nullptr;
     capacity_ = 0;
   }

@@ -87,7 +87,7 @@ struct DirectSurfaces {
     Shifts shifts;
   };
 
-  template <Formula kFormula>
+  template <Formula Which>
   NADIR_HOST_DEVICE void run_as(std::int64_t item) const {
     Place place;
     const auto lane = static_cast<int>(item % kLanes);
@@ -97,9 +97,9 @@ struct DirectSurfaces {
     place.which = static_cast<int>(item / kLanes / groups() / height);
     place.shifts = shifts_of(place.which);
     Sums<double> sums[kColumns];
-    sum_pixels<kFormula>(place, sums);
+    sum_pixels<Which>(place, sums);
     PaperMoments moments[kColumns];
-    if constexpr (kFormula == Formula::kPaper) {
+    if constexpr (Which == Formula::kPaper) {
       for (int c = 0; c < kColumns; ++c) moments[c] = paper_moments(sums[c]);
       sum_deviations(place, moments, sums);
     }
@@ -128,7 +128,7 @@ struct DirectSurfaces {
             on_map || rule.whole_square ? pixel.weight : 0.0F, part};
   }
 
-  template <Formula kFormula>
+  template <Formula Which>
   NADIR_HOST_DEVICE void sum_pixels(const Place& place, Sums<double>* sums) const {
     const std::uint8_t* base[kColumns];
     for (int c = 0; c < kColumns; ++c) base[c] = below(place, c);
@@ -141,7 +141,7 @@ struct DirectSurfaces {
         for (int c = 0; c < kColumns; ++c) {
           const std::uint8_t grey = base[c][pixel.offset];
           if (grey != 0) chunk[c].seen += pixel.seen;
-          add_pair<kFormula>(chunk[c], pair_of(pixel, grey), place.shifts);
+          add_pair<Which>(chunk[c], pair_of(pixel, grey), place.shifts);
         }
       }
       for (int c = 0; c < kColumns; ++c) add(sums[c], chunk[c]);

@@ -64,13 +64,13 @@ NADIR_HOST_DEVICE inline void add(Sums<T>& to, const Sums<U>& from) {
   to.distance += from.distance;
 }
 
-template <Formula kFormula>
+template <Formula Which>
 NADIR_HOST_DEVICE inline void add_pair(Sums<float>& sums, const Pair& pair, const Shifts& shifts) {
   sums.a += pair.part;
-  if constexpr (kFormula == Formula::kSad || kFormula == Formula::kSsd) {
+  if constexpr (Which == Formula::kSad || Which == Formula::kSsd) {
     const float difference = (pair.map - pair.local) / kGreyScale;
     sums.distance +=
-        pair.part * (kFormula == Formula::kSad ? fabsf(difference) : difference * difference);
+        pair.part * (Which == Formula::kSad ? fabsf(difference) : difference * difference);
     return;
   }
   const float r = (pair.map - shifts.map) / kGreyScale;
@@ -79,12 +79,12 @@ NADIR_HOST_DEVICE inline void add_pair(Sums<float>& sums, const Pair& pair, cons
   const float ap = pair.part * p;
   sums.rr += ar * r;
   sums.pp += ap * p;
-  if constexpr (kFormula == Formula::kZeroMean || kFormula == Formula::kPaper) {
+  if constexpr (Which == Formula::kZeroMean || Which == Formula::kPaper) {
     sums.r += ar;
     sums.p += ap;
   }
-  if constexpr (kFormula == Formula::kWeightedCosine) sums.rp += pair.weight * r * p;
-  if constexpr (kFormula == Formula::kCosine || kFormula == Formula::kZeroMean) sums.rp += ar * p;
+  if constexpr (Which == Formula::kWeightedCosine) sums.rp += pair.weight * r * p;
+  if constexpr (Which == Formula::kCosine || Which == Formula::kZeroMean) sums.rp += ar * p;
 }
 
 /// What equation [5] needs of a first pass over the pixels, in units of kGreyScale; `product` is

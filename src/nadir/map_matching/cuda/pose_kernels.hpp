@@ -118,12 +118,12 @@ struct ScorePoses {
   }
 
  private:
-  template <Formula kFormula>
+  template <Formula Which>
   NADIR_HOST_DEVICE void sum_as(const PixelPose& pose, int thread, Sums<float>& sums) const {
     for (int i = thread; i < pixels.count; i += kThreads) {
       Pair pair;
       if (sample(pose, i, pair)) sums.seen += pixels.seen[i];
-      add_pair<kFormula>(sums, pair, shifts);
+      add_pair<Which>(sums, pair, shifts);
     }
   }
 

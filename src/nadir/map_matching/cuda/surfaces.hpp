@@ -27,9 +27,6 @@ struct Batch {
 /// before its memory is used again.
 class SurfaceSink {
  public:
-  SurfaceSink() = default;
-  SurfaceSink(const SurfaceSink&) = delete;
-  SurfaceSink& operator=(const SurfaceSink&) = delete;
   virtual ~SurfaceSink() = default;
   virtual void begin(const Batch& batch, StreamWork& work) = 0;
   virtual void end(const Batch& batch, StreamWork& work) = 0;
