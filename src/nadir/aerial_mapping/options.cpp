@@ -31,9 +31,9 @@ void declare(OptionTable& table, AerialMappingOptions& options) {
              "points.");
   table.flag(stage + "refine_given_poses", options.refine_given_poses,
              "Adjust poses that are given with the photos instead of taking them as they are.");
-  table.choice<SurfaceKind>(stage + "surface", options.surface, kSurfaceKindNames,
-                            "Ground that the photos are projected on: triangulated features, one "
-                            "plane, or a dense sweep.");
+  table.choice<SurfaceKind>(
+      stage + "surface", options.surface, kSurfaceKindNames,
+      "Ground that the photos are projected on: triangulated features, or one plane.");
   table.number(stage + "max_off_nadir_deg", options.max_off_nadir_deg, {5.0, 80.0},
                "Largest angle between a used ray and the vertical, degrees; wider by the tilt of "
                "the block where its photos are oblique.");

@@ -9,11 +9,9 @@
 namespace nadir {
 
 /// What the photos are projected on.
-enum class SurfaceKind { kSparse, kPlane, kDense };
-inline constexpr std::array<std::pair<SurfaceKind, const char*>, 3> kSurfaceKindNames{
-    {{SurfaceKind::kSparse, "sparse"},
-     {SurfaceKind::kPlane, "plane"},
-     {SurfaceKind::kDense, "dense"}}};
+enum class SurfaceKind { kSparse, kPlane };
+inline constexpr std::array<std::pair<SurfaceKind, const char*>, 2> kSurfaceKindNames{
+    {{SurfaceKind::kSparse, "sparse"}, {SurfaceKind::kPlane, "plane"}}};
 
 /// How photos are joined where they meet.
 enum class BlendKind { kMultiBand, kFeather, kNone };
