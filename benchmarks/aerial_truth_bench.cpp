@@ -79,8 +79,7 @@ PhotoSet photos_of(const SimulatedFlight& flight, const std::vector<int>& chosen
   }
   const MetricFrame frame = MetricFrame::around(positions);
   const SiteAnchor& anchor = world.anchor();
-  truth.map_from_local = {anchor.easting_m - frame.anchor().x(),
-                          anchor.northing_m - frame.anchor().y(), anchor.altitude_m};
+  truth.map_from_local = {anchor.easting_m, anchor.northing_m, anchor.altitude_m};
   PhotoSet set;
   set.crs = frame.crs();
   set.cameras.push_back({"simulated",
