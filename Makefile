@@ -19,7 +19,8 @@ demo: build  ## simulate a drive, localize it, write out/demo
 test: build  ## build and run all tests
 	ctest --preset release -j $(JOBS)
 
-bench: build  ## run the benchmarks: build/release/bin/*_bench
+bench: build  ## measure against peers, write benchmarks/reports/DATE-peers.md, run */bin/*_bench
+	benchmarks/peers_report.py $(if $(NADIR_DATA),--data $(NADIR_DATA))
 	set -e; for program in build/release/bin/*_bench; do echo "== $$program"; $$program; done
 
 format: deps-quality  ## format every C++ file in place

@@ -107,6 +107,80 @@ void registration(benchmark::State& state) {
 }
 BENCHMARK(registration)->Unit(benchmark::kMillisecond);
 
+// How cost grows: the size of the map, of the template, headings, poses, threads. The time that
+// counts is of the whole process, so that threads are added up; of threads, the wall's.
+
+/// A square map of `side` pixels and a square template.
+struct Place {
+  Place(int side, int local_side, PoseScoring scoring = PoseScoring::kAuto)
+      : map(test::render(kTexture, side, side, {0.0, 0.1 * side, 0.1, {}}, Pose2{}),
+            [&] {
+              MatchingOptions options = options_of(Score::kZwncc);
+              options.pose_scoring = scoring;
+              return options;
+            }()),
+        centre{0.05 * side, 0.05 * side, 0.3},
+        local(make_template(test::render(kTexture, local_side, local_side,
+                                         test::centred(local_side, local_side, 0.1), centre),
+                            map.options())) {}
+  void surfaces(int headings) const {
+    std::vector<double> yaws;
+    for (int k = 0; k < headings; ++k) yaws.push_back(centre.yaw + 0.05 * k);
+    const auto templates = rotate_templates(local.channel, yaws, 0.1, pixel_role(map.options()));
+    const int side = map.channel().value.width();
+    benchmark::DoNotOptimize(cpu_backend().score_surfaces(map, templates, {0, 0, side, side}));
+  }
+  MapIndex map;
+  Pose2 centre;
+  Template local;
+};
+
+void growth_map_side(benchmark::State& state) {
+  const Place place(static_cast<int>(state.range(0)), 180);
+  for (auto _ : state) place.surfaces(1);
+}
+BENCHMARK(growth_map_side)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime();
+
+void growth_template_side(benchmark::State& state) {
+  const Place place(768, static_cast<int>(state.range(0)));
+  for (auto _ : state) place.surfaces(1);
+}
+BENCHMARK(growth_template_side)->RangeMultiplier(2)->Range(32, 512)->MeasureProcessCPUTime();
+
+void growth_headings(benchmark::State& state) {
+  const Place place(384, 128);
+  for (auto _ : state) place.surfaces(static_cast<int>(state.range(0)));
+}
+BENCHMARK(growth_headings)->RangeMultiplier(4)->Range(1, 64)->MeasureProcessCPUTime();
+
+void growth_poses(benchmark::State& state, PoseScoring scoring) {
+  const Place place(400, 180, scoring);
+  const RandomStream random(1, 1);
+  std::vector<Pose2> poses;
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(state.range(0)); ++i) {
+    poses.push_back({place.centre.x + random.uniform(3 * i, -5.0, 5.0),
+                     place.centre.y + random.uniform(3 * i + 1, -5.0, 5.0),
+                     place.centre.yaw + random.uniform(3 * i + 2, -0.087, 0.087)});
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(score_poses(place.map, place.local, poses));
+}
+BENCHMARK_CAPTURE(growth_poses, exact, PoseScoring::kExact)
+    ->RangeMultiplier(4)
+    ->Range(64, 16384)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(growth_poses, surface, PoseScoring::kSurface)
+    ->RangeMultiplier(4)
+    ->Range(64, 16384)
+    ->MeasureProcessCPUTime();
+
+void growth_threads(benchmark::State& state) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(state.range(0)));
+  const Place place(768, 180);
+  for (auto _ : state) place.surfaces(8);
+}
+BENCHMARK(growth_threads)->RangeMultiplier(2)->Range(1, 4)->UseRealTime();
+
 }  // namespace
 }  // namespace nadir
 

@@ -25,10 +25,16 @@ constexpr int kSmallestTile = 512;
 /// What the headings that are worked on at the same time may take, bytes; one always may.
 constexpr std::size_t kScratchBudget = std::size_t{256} << 20U;
 
+/// The cosine scores remove no mean: over grey values as they are, sums of positive numbers, four
+/// correlations do (sum a, sum R^2, sum P^2 and the product), and nothing cancels.
+bool is_cosine(Score score) { return score == Score::kNcc || score == Score::kWncc; }
+constexpr Product kCosineProducts[] = {{0, 0}, {2, 0}, {0, 1}, {1, 2}};
+
 std::shared_ptr<const MapSpectra> compute_spectra(const MapIndex& map, const Region& region) {
   const bool whole_square = pixel_role(map.options()).whole_square;
   auto spectra = std::make_shared<MapSpectra>(
-      MapSpectra{Correlator(region.period_width, region.period_height), map.mean_grey()});
+      MapSpectra{Correlator(region.period_width, region.period_height),
+                 is_cosine(map.options().score) ? 0.0 : map.mean_grey()});
   const Raster<float> value = shifted(region.value, region.takes_part, spectra->shift);
   spectra->mask = spectra->correlator.forward(region.takes_part);
   spectra->value = spectra->correlator.forward(value);
@@ -39,10 +45,9 @@ std::shared_ptr<const MapSpectra> compute_spectra(const MapIndex& map, const Reg
 
 /// The images of a template whose spectra take part, and the products of them with the map's.
 struct LocalImages {
-  std::vector<Raster<float>> images;  ///< a, a P', a P'^2, then what the score needs beyond
+  std::vector<Raster<float>> images;  ///< a, a P', a P'^2, then what was seen if not a
   std::vector<Product> products{std::begin(kZeroMeanProducts), std::end(kZeroMeanProducts)};
-  int wncc = -1;  ///< index of the first of the two products of wncc alone
-  int seen = 0;   ///< index of the product that says what was really seen
+  int seen = 0;  ///< index of the product that says what was really seen
 };
 
 constexpr std::size_t kSeenSpectrum = 3;  // after V, V R', V R'^2
@@ -58,12 +63,6 @@ LocalImages local_images(const MatchingOptions& options, const RotatedTemplate& 
   result.images.push_back(a);
   result.images.push_back(std::move(ap));
   result.images.push_back(std::move(app));
-  if (options.score == Score::kWncc) {
-    result.wncc = static_cast<int>(result.products.size());
-    result.products.push_back({0, result.images.size()});
-    result.products.push_back({1, result.images.size()});
-    result.images.push_back(times(local.weight, shifted(local.value, local.mask, 0.0)));
-  }
   // The share of what is compared is the sum of weights itself, unless holes take part.
   if (role.whole_square) {
     result.seen = static_cast<int>(result.products.size());
@@ -73,21 +72,40 @@ LocalImages local_images(const MatchingOptions& options, const RotatedTemplate& 
   return result;
 }
 
+/// a, P^2 and w P, of grey values divided by 64.
+LocalImages cosine_images(const MatchingOptions& options, const RotatedTemplate& local) {
+  const Raster<float> unit = shifted(local.value, local.mask, 0.0);
+  LocalImages result;
+  result.images = {local.mask, times(unit, unit),
+                   options.score == Score::kWncc ? times(local.weight, unit) : unit};
+  result.products.assign(std::begin(kCosineProducts), std::end(kCosineProducts));
+  return result;
+}
+
+/// sum w R P / sqrt(sum R^2 sum P^2)
+float cosine(double map_norm, double local_norm, double product) {
+  constexpr double kNothing = 1e-6;  // rounding about zero: one grey value of 1 adds 2.4e-4
+  if (map_norm <= kNothing || local_norm <= kNothing) return kUndefined;
+  return static_cast<float>(product / std::sqrt(map_norm * local_norm));
+}
+
 /// Puts rows of sums together to scores, in double.
 void assemble(const MatchingOptions& options, const LocalImages& images, const Shifts& shifts,
               double total_seen, std::span<const float* const> sums, std::size_t count,
               float* score, float* valid_weight) {
   const auto at = [&](int k, std::size_t i) {
-    return k < 0 ? 0.0 : static_cast<double>(sums[static_cast<std::size_t>(k)][i]);
+    return static_cast<double>(sums[static_cast<std::size_t>(k)][i]);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const double share =
         total_seen > 0.0 ? std::clamp(at(images.seen, i) / total_seen, 0.0, 1.0) : 0.0;
     valid_weight[i] = static_cast<float>(share);
     if (share < options.min_valid_weight) continue;
-    const Sums values{
-        at(0, i), at(1, i), at(2, i),           at(3, i),
-        at(4, i), at(5, i), at(images.wncc, i), images.wncc < 0 ? 0.0 : at(images.wncc + 1, i)};
+    if (is_cosine(options.score)) {
+      score[i] = cosine(at(1, i), at(2, i), at(3, i));
+      continue;
+    }
+    const Sums values{at(0, i), at(1, i), at(2, i), at(3, i), at(4, i), at(5, i)};
     score[i] = static_cast<float>(score_from_sums(options.score, values, shifts));
   }
 }
@@ -96,7 +114,8 @@ ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options, c
                         const RotatedTemplate& local, const PixelWindow& window,
                         CorrelatorScratch& scratch, bool parallel) {
   const Shifts shifts{map.shift, mean_grey(local.value, local.mask)};
-  const LocalImages images = local_images(options, local, shifts.local);
+  const LocalImages images = is_cosine(options.score) ? cosine_images(options, local)
+                                                      : local_images(options, local, shifts.local);
   std::vector<const Raster<float>*> locals;
   for (const Raster<float>& image : images.images) locals.push_back(&image);
   std::vector<const Spectrum*> maps = {&map.mask, &map.value, &map.squares};
