@@ -49,7 +49,14 @@ OptionTable option_table(StageOptions& options) {
   declare(table, options.localizer.matching);
   declare(table, options.localizer.localization);
   declare(table, options.localizer.registration);
+  declare(table, options.simulation);
   return table;
+}
+
+void add_config_and_set(CLI::App& verb, OptionSources& sources) {
+  verb.add_option("--config", sources.config, "YAML file of options, as `config dump` prints it");
+  verb.add_option("--set", sources.sets, "Set any option: STAGE.NAME=VALUE (may be repeated)")
+      ->allow_extra_args(false);
 }
 
 void add_option_sources(CLI::App& verb, OptionSources& sources) {
@@ -57,9 +64,7 @@ void add_option_sources(CLI::App& verb, OptionSources& sources) {
                   "Options to start from: default, or paper (its protocol)")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
-  verb.add_option("--config", sources.config, "YAML file of options, as `config dump` prints it");
-  verb.add_option("--set", sources.sets, "Set any option: STAGE.NAME=VALUE (may be repeated)")
-      ->allow_extra_args(false);
+  add_config_and_set(verb, sources);
 }
 
 void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& flag,

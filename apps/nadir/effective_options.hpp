@@ -12,6 +12,7 @@
 #include "nadir/ground_mapping/options.hpp"
 #include "nadir/io/yaml_options.hpp"
 #include "nadir/localizer.hpp"
+#include "simulation_options.hpp"
 
 namespace nadir::cli {
 
@@ -30,6 +31,8 @@ struct OptionSources {
   std::vector<std::shared_ptr<Flag>> flags;
 };
 
+/// Adds --config and --set.
+void add_config_and_set(CLI::App& verb, OptionSources& sources);
 /// Adds --preset, --config, --set.
 void add_option_sources(CLI::App& verb, OptionSources& sources);
 /// Adds a flag that sets one option of the table; its help is the declaration's.
@@ -41,6 +44,7 @@ struct StageOptions {
   AerialMappingOptions aerial_mapping;
   GroundMappingOptions ground_mapping;
   LocalizerOptions localizer;
+  SimulationOptions simulation;
 };
 
 /// All of them, dotted by stage. `options` must outlive the table.
@@ -63,6 +67,7 @@ class EffectiveOptions {
   const LocalizerOptions& values() const { return values_.localizer; }
   const AerialMappingOptions& aerial_mapping() const { return values_.aerial_mapping; }
   const GroundMappingOptions& ground_mapping() const { return values_.ground_mapping; }
+  const SimulationOptions& simulation() const { return values_.simulation; }
   const OptionTable& table() const { return table_; }
   const OptionOrigins& origins() const { return origins_; }
 

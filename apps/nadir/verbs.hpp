@@ -6,6 +6,7 @@
 namespace nadir::cli {
 
 // One file a verb: it adds its subcommand to the program and binds its work to the invocation.
+void add_simulate(CLI::App& program, Invocation& invocation);
 void add_convert(CLI::App& program, Invocation& invocation);
 void add_info(CLI::App& program, Invocation& invocation);
 void add_map(CLI::App& program, Invocation& invocation);

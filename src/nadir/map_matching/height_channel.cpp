@@ -54,8 +54,12 @@ ChannelImage make_height_channel(const ElevationMap& heights, const MatchingOpti
                        std::move(known.valid), known.geo};
   for (std::size_t i = 0; i < channel.value.values().size(); ++i) {
     if (channel.valid.values()[i] == 0) continue;
-    channel.value.values()[i] = grey_of(
-        static_cast<double>(known.value.values()[i] - ground.values()[i]), options.height_scale_m);
+    const auto rise = static_cast<double>(known.value.values()[i] - ground.values()[i]);
+    if (rise > options.height_ceiling_m) {
+      channel.valid.values()[i] = 0;
+    } else {
+      channel.value.values()[i] = grey_of(rise, options.height_scale_m);
+    }
   }
   return channel;
 }

@@ -66,6 +66,11 @@ void declare(OptionTable& table, MatchingOptions& options) {
   table.number(stage + "height_scale_m", options.height_scale_m, {0.01, 100.0},
                "Height above the ground that is half as good as any: lower things are compared by "
                "their height, higher ones by being there, metres.");
+  table.number(
+      stage + "height_ceiling_m", options.height_ceiling_m, {0.1, 1000.0},
+      "What stands higher above the ground is unknown, metres: under a crown that the drone "
+      "sees, the robot sees the ground; and cars come and go.",
+      "measured on the simulated campus");
   table.number(stage + "min_valid_weight", options.min_valid_weight, {0.01, 1.0},
                "Smallest share of the local map's weight that must lie on valid map pixels.");
   table.number(stage + "yaw_step_deg", options.yaw_step_deg, {0.01, 90.0},

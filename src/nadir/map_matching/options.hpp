@@ -91,6 +91,7 @@ struct MatchingOptions {
   double high_pass_sigma_m = 1.5;
   double height_sigma_m = 3.0;
   double height_scale_m = 0.25;
+  double height_ceiling_m = 1.2;
   double min_valid_weight = 0.6;
   double yaw_step_deg = 1.0;
   int candidates = 10;

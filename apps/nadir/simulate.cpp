@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+#include "add_verb.hpp"
+#include "effective_options.hpp"
+#include "manifest_of.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/elevation_file.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "simulated_site.hpp"
+#include "stopwatch.hpp"
+#include "streams.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimulateOptions {
+  fs::path site;
+  fs::path from;
+  fs::path dsm;
+  int photos = 0;
+  std::string gps;
+  std::string sensors = "stereo";
+  OptionSources sources;
+};
+
+OptionSources with_gps(const SimulateOptions& options) {
+  OptionSources sources = options.sources;
+  if (!options.gps.empty()) {
+    sources.sets.push_back(std::string("simulation.flight_rtk=") +
+                           (options.gps == "rtk" ? "true" : "false"));
+  }
+  return sources;
+}
+
+SimulatedWorld make_world(const SimulateOptions& options, const SimulationOptions& simulation,
+                          std::uint64_t seed) {
+  if (options.from.empty()) {
+    if (options.dsm.empty()) return SimulatedWorld::make(seed, simulation.world);
+    throw Error(ErrorKind::kUsage, "a surface needs the orthomosaic that lies on it", "--dsm",
+                "give --from MAP too");
+  }
+  std::optional<ElevationMap> surface;
+  if (!options.dsm.empty()) surface = read_elevation_map(options.dsm);
+  return SimulatedWorld::drape(read_orthomosaic(options.from), surface, seed);
+}
+
+std::vector<fs::path> inputs_of(const SimulateOptions& options) {
+  std::vector<fs::path> inputs;
+  for (const fs::path& path : {options.from, options.dsm}) {
+    if (!path.empty()) inputs.push_back(path);
+  }
+  return inputs;
+}
+
+Json describe(const SimulateOptions& options, const SimulationOptions& simulation,
+              const SimulatedSite& site, std::size_t photos) {
+  const FlightOptions& flight = simulation.flight;
+  return {{"output", options.site.string()},
+          {"photos", photos},
+          {"photo_width_px", flight.image_width},
+          {"photo_height_px", flight.image_height},
+          {"photo_resolution_m", flight.height_m / flight.focal_px},
+          {"gps", flight.rtk ? "rtk" : "consumer"},
+          {"sensors", options.sensors},
+          {"frames", site.drive().size()},
+          {"travel_m", site.travel_m()}};
+}
+
+std::string in_words(const Json& site) {
+  return fmt::format(
+      "{} photos of {} x {} px, {:.3f} m a pixel, {} GPS; {} frames ({}) over {:.0f} m\n"
+      "written to {}: photos, {}, truth\n",
+      site["photos"].get<int>(), site["photo_width_px"].get<int>(),
+      site["photo_height_px"].get<int>(), site["photo_resolution_m"].get<double>(),
+      site["gps"].get<std::string>(), site["frames"].get<int>(), site["sensors"].get<std::string>(),
+      site["travel_m"].get<double>(), site["output"].get<std::string>(),
+      site["sensors"].get<std::string>());
+}
+
+void write_site(const SimulateOptions& options, const SimulatedSite& site,
+                const std::vector<int>& photos, const std::string& name,
+                const CommonOptions& common, const fs::path& folder) {
+  const bool stereo = options.sensors != "lidar";
+  const bool lidar = options.sensors != "stereo";
+  const int passes = 1 + (stereo ? 1 : 0) + (lidar ? 1 : 0);
+  Progress progress("simulating", static_cast<int>(photos.size()) + passes * site.drive().size(),
+                    common);
+  int done = 0;
+  const auto tick = [&] { progress.update(++done); };
+  site.write_photos(folder / "photos", photos, tick);
+  if (stereo) site.write_stereo(folder / "stereo", tick);
+  if (lidar) site.write_lidar(folder / "lidar", tick);
+  site.write_truth(folder / "truth", photos, name, tick);
+}
+
+int run(const SimulateOptions& options, const Invocation& invocation) {
+  const CommonOptions& common = invocation.common;
+  require_device(common);
+  const ThreadLimit limit(common);
+  const EffectiveOptions effective(with_gps(options));
+  const SimulationOptions& simulation = effective.simulation();
+  const std::vector<fs::path> inputs = inputs_of(options);
+  require_writable(options.site, common, inputs);
+  const Stopwatch stopwatch;
+  const SimulatedSite site(make_world(options, simulation, common.seed), simulation, common.seed);
+  const std::vector<int> photos = site.photos(options.photos);
+  Json document = describe(options, simulation, site, photos.size());
+  if (common.dry_run) {
+    document["dry_run"] = true;
+    common.json ? print(document) : print("would make: " + in_words(document));
+    return 0;
+  }
+  OutputFolder output(options.site, common, inputs);
+  const std::string name = fmt::format("simulated, seed {}", common.seed);
+  write_site(options, site, photos, name, common, output.staging());
+  Manifest manifest = manifest_of(invocation, limit.threads(), inputs);
+  manifest.stages.push_back({"simulate", stopwatch.seconds()});
+  write_manifest(output.staging(), manifest, effective.table(), effective.origins());
+  output.commit();
+  common.json ? print(document) : print(in_words(document));
+  return 0;
+}
+
+void add_world(CLI::App& verb, SimulateOptions& options) {
+  add_option_flag(verb, options.sources, "--preset", "simulation.preset");
+  verb.add_option("--from", options.from, "Take the ground from this orthomosaic instead")
+      ->type_name("MAP");
+  verb.add_option("--dsm", options.dsm, "Its heights: a surface model")->type_name("FILE");
+}
+
+void add_visits(CLI::App& verb, SimulateOptions& options) {
+  verb.add_option("--photos", options.photos,
+                  "Take only the photos nearest to the drive, this many; 0 = all")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  add_option_flag(verb, options.sources, "--height", "simulation.flight_height_m");
+  add_option_flag(verb, options.sources, "--forward-overlap", "simulation.flight_forward_overlap");
+  add_option_flag(verb, options.sources, "--side-overlap", "simulation.flight_side_overlap");
+  verb.add_option("--gps", options.gps, "Receiver of the drone: consumer, rtk")
+      ->check(CLI::IsMember({"consumer", "rtk"}));
+  add_option_flag(verb, options.sources, "--frames", "simulation.drive_frames");
+  verb.add_option("--sensors", options.sensors, "Of the robot: stereo, lidar, both")
+      ->check(CLI::IsMember({"stereo", "lidar", "both"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<SimulateOptions>(
+      program, invocation, "simulate", "Make a site: drone photos, a drive, and the truth", run);
+  verb->add_option("-o,--output", options.site, "Folder to write")->type_name("SITE")->required();
+  add_world(*verb, options);
+  add_visits(*verb, options);
+  add_config_and_set(*verb, options.sources);
+  add_writing_options(*verb, invocation.common);
+  add_computing_options(*verb, invocation.common);
+  verb->footer(
+      "Examples:\n"
+      "  nadir simulate -o out/site\n"
+      "  nadir simulate -o out/site --preset parking --seed 3 --height 60 --gps rtk\n"
+      "  nadir simulate -o out/site --from campus.tif --dsm surface.tif --sensors lidar\n"
+      "SITE holds photos/ (JPEG with EXIF and XMP), stereo/ or lidar/ (KITTI's layout, odometry "
+      "and\n"
+      "true poses) and truth/, a site of its own: what a perfect pipeline would make of it.\n");
+}
+
+}  // namespace nadir::cli
