@@ -51,8 +51,9 @@ std::vector<std::vector<Pose2>> SimulatedWorld::routes() const {
   std::vector<std::vector<Pose2>> routes;
   for (const simulation::Path& path : terrain_->layout.routes) {
     std::vector<Pose2> route;
-    for (double along = 0.0; along <= path.length(); along += kStep) {
-      const simulation::PathPose pose = path.at(along);
+    const auto count = static_cast<int>(path.length() / kStep) + 1;
+    for (int i = 0; i < count; ++i) {
+      const simulation::PathPose pose = path.at(i * kStep);
       route.push_back({pose.point.x(), pose.point.y(), wrap_angle(pose.yaw)});
     }
     routes.push_back(std::move(route));
@@ -75,8 +76,10 @@ Orthomosaic SimulatedScene::true_orthomosaic(const GeoReference& geo, int width,
     for (int column = 0; column < width; ++column) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
-        const double x = geo.x_at(column + (i % kRaysPerSide + 0.5) / kRaysPerSide);
-        const double y = geo.y_at(row + (i / kRaysPerSide + 0.5) / kRaysPerSide);
+        const int across = i % kRaysPerSide;
+        const int downwards = i / kRaysPerSide;
+        const double x = geo.x_at(column + (across + 0.5) / kRaysPerSide);
+        const double y = geo.y_at(row + (downwards + 0.5) / kRaysPerSide);
         const Eigen::Vector3d origin(x, y, kAbove);
         const Eigen::Vector3d down(0.0, 0.0, -1.0);
         sum += scene_->colour(origin, down, scene_->caster().cast(origin, down), pixel);

@@ -52,20 +52,28 @@ void add_paths(Planner& plan) {
 }
 
 void add_buildings(Planner& plan) {
-  const auto jitter = [&] { return plan.draw(-0.012, 0.012); };
-  const auto size = [&](double metres) { return metres * plan.draw(0.88, 1.12); };
-  plan.try_building(0.085 + jitter(), 0.60 + jitter(), size(7.0), size(10.0), size(9.0), false);
-  plan.try_building(0.88 + jitter(), 0.74 + jitter(), size(11.0), size(8.0), size(8.0), false);
-  plan.try_building(0.90 + jitter(), 0.15 + jitter(), size(9.0), size(6.0), size(6.5), false);
-  plan.try_building(0.10 + jitter(), 0.09 + jitter(), size(6.0), size(4.5), size(5.0), true);
-  plan.try_building(0.25 + jitter(), 0.08 + jitter(), size(5.5), size(4.5), size(5.0), true);
-  plan.try_building(0.47 + jitter(), 0.11 + jitter(), size(8.0), size(5.0), size(5.5), true);
+  // Drawn one after the other: the order of a call's arguments is the compiler's.
+  const auto build = [&](double x, double y, double half_length, double half_width, double height,
+                         bool gable) {
+    x += plan.draw(-0.012, 0.012);
+    y += plan.draw(-0.012, 0.012);
+    half_length *= plan.draw(0.88, 1.12);
+    half_width *= plan.draw(0.88, 1.12);
+    height *= plan.draw(0.88, 1.12);
+    plan.try_building(x, y, half_length, half_width, height, gable);
+  };
+  build(0.085, 0.60, 7.0, 10.0, 9.0, false);
+  build(0.88, 0.74, 11.0, 8.0, 8.0, false);
+  build(0.90, 0.15, 9.0, 6.0, 6.5, false);
+  build(0.10, 0.09, 6.0, 4.5, 5.0, true);
+  build(0.25, 0.08, 5.5, 4.5, 5.0, true);
+  build(0.47, 0.11, 8.0, 5.0, 5.5, true);
   for (int i = 0; i < 26; ++i) {  // the neighbourhood
     const bool gable = plan.draw() < 0.7;
     const double x = plan.draw(-0.18, 1.18);
-    const double y = plan.draw(0.0, 1.0) < 0.5 ? plan.draw(-0.24, 0.02) : plan.draw(0.9, 1.22);
-    plan.try_building(x, y, size(gable ? 5.5 : 8.0), size(gable ? 4.4 : 6.0),
-                      size(gable ? 4.8 : 7.0), gable);
+    const double y = plan.draw() < 0.5 ? plan.draw(-0.24, 0.02) : plan.draw(0.9, 1.22);
+    if (gable) build(x, y, 5.5, 4.4, 4.8, true);
+    if (!gable) build(x, y, 8.0, 6.0, 7.0, false);
   }
 }
 

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace nadir::simulation {
 namespace {
 
 constexpr double kCell = 2.0;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Whether a ray passes a box within (from, to): slabs.
 bool passes(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,

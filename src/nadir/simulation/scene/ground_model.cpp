@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nadir/simulation/scene/ground_spot.hpp"
 
@@ -22,8 +23,12 @@ bool is_carriageway(const Road& road) {
 }  // namespace
 
 GroundModel::GroundModel(std::uint64_t seed, const Layout& layout, double relief_m,
-                         const Eigen::Vector2d& low, const Eigen::Vector2d& high)
-    : noise_(seed), layout_(layout), relief_m_(relief_m), low_(low), high_(high) {}
+                         Eigen::Vector2d low, Eigen::Vector2d high)
+    : noise_(seed),
+      layout_(layout),
+      relief_m_(relief_m),
+      low_(std::move(low)),
+      high_(std::move(high)) {}
 
 Nearby GroundModel::near(const Eigen::Vector2d& point, double reach) const {
   Nearby nearby;
@@ -57,7 +62,7 @@ double GroundModel::relief(const Eigen::Vector2d& point) const {
 }
 
 GroundSpot GroundModel::locate(const Eigen::Vector2d& point, float footprint,
-                               const Nearby& nearby) const {
+                               const Nearby& nearby) {
   GroundSpot spot;
   spot.point = point;
   spot.x = static_cast<float>(point.x());

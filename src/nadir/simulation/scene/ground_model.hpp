@@ -29,13 +29,13 @@ struct GroundSpot;  // where a point lies against everything near it
 /// The bare ground as a function of the plane: its height and, down to a centimetre, its colour.
 class GroundModel {
  public:
-  GroundModel(std::uint64_t seed, const Layout& layout, double relief_m, const Eigen::Vector2d& low,
-              const Eigen::Vector2d& high);
+  GroundModel(std::uint64_t seed, const Layout& layout, double relief_m, Eigen::Vector2d low,
+              Eigen::Vector2d high);
 
   /// What shows within `reach` metres of a point.
   Nearby near(const Eigen::Vector2d& point, double reach) const;
   /// How a point, seen by a pixel of width `footprint` metres, lies against all that is near it.
-  GroundSpot locate(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
+  static GroundSpot locate(const Eigen::Vector2d& point, float footprint, const Nearby& nearby);
   /// Height above the datum of the world; kerbs, cambers and gutters included.
   double height(const GroundSpot& spot) const;
   /// Colour as that pixel sees it.

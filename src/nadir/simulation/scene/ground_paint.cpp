@@ -49,7 +49,7 @@ float street_lines(const Road& road, const PathPoint& at, float soft) {
 float stall_lines(const Area& area, const Eigen::Vector2d& point, float soft) {
   const Eigen::Vector2d p = area.local(point);
   const auto u = static_cast<float>(p.x() + area.half_length);
-  const float from_edge = static_cast<float>(area.half_width - std::abs(p.y()));
+  const auto from_edge = static_cast<float>(area.half_width - std::abs(p.y()));
   const auto width = static_cast<float>(kStallWidth);
   const float offset = u - width * std::round(u / width);
   return line(offset, 0.0F, 0.1F, soft) *

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace nadir::simulation {
 namespace {
@@ -17,8 +18,8 @@ int clamped(double index, int count) {
 
 }  // namespace
 
-HeightField::HeightField(Raster<float> nodes, const Eigen::Vector2d& low, double spacing)
-    : nodes_(std::move(nodes)), low_(low), spacing_(spacing) {
+HeightField::HeightField(Raster<float> nodes, Eigen::Vector2d low, double spacing)
+    : nodes_(std::move(nodes)), low_(std::move(low)), spacing_(spacing) {
   const int width = nodes_.width();
   const int height = nodes_.height();
   blocks_ = Raster<Block>((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);

@@ -14,7 +14,7 @@ namespace nadir::simulation {
 class HeightField {
  public:
   HeightField() = default;
-  HeightField(Raster<float> nodes, const Eigen::Vector2d& low, double spacing);
+  HeightField(Raster<float> nodes, Eigen::Vector2d low, double spacing);
 
   const Eigen::Vector2d& low() const { return low_; }
   Eigen::Vector2d high() const;

@@ -21,8 +21,8 @@ class Planner {
   double draw() { return random_.uniform(draws_++); }
   double draw(double low, double high) { return low + (high - low) * draw(); }
 
-  Path path(std::initializer_list<Eigen::Vector2d> corners, std::initializer_list<double> radii,
-            bool endless = true) const;
+  static Path path(std::initializer_list<Eigen::Vector2d> corners,
+                   std::initializer_list<double> radii, bool endless = true);
   void add_road(Path path, double half_width, RoadKind kind);
   void add_area(double x, double y, double half_length, double half_width, AreaKind kind);
   /// A building where there is room for it.
@@ -36,6 +36,13 @@ class Planner {
   Layout layout;
 
  private:
+  bool is_furnished(const Eigen::Vector2d& p) const;
+  bool is_clear_of_others(const Road& road, const Eigen::Vector2d& p, double clearance) const;
+  void add_decals(const Road& road);
+  void add_arrows(const Road& road);
+  void add_lamps(const Road& road);
+  void add_street_trees(const Road& road);
+
   RandomStream random_;
   std::uint64_t draws_ = 0;
   double width_;

@@ -181,7 +181,8 @@ void Scene::refine(std::span<const Pose2> places, double radius_m) {
   for (int index = 0; index < tile_columns_ * tile_rows_; ++index) {
     const Eigen::Vector2d middle =
         terrain_->extent.low +
-        kTile * Eigen::Vector2d(index % tile_columns_ + 0.5, index / tile_columns_ + 0.5);
+        kTile * (Eigen::Vector2d(index % tile_columns_, index / tile_columns_) +
+                 Eigen::Vector2d(0.5, 0.5));
     const bool near = std::any_of(places.begin(), places.end(), [&](const Pose2& place) {
       return std::hypot(place.x - middle.x(), place.y - middle.y()) < radius_m + 0.5 * kTile;
     });
@@ -224,11 +225,14 @@ Eigen::Vector3f Scene::ground_colour(double x, double y, float footprint) const 
         .cwiseProduct(static_cast<float>(light_.to_sun.z()) * light_.sun + light_.sky);
   }
   const auto texel = static_cast<float>(terrain_->options.texel_m);
-  const Eigen::Vector3f coarse = ground_.at(x, y, footprint);
+  Eigen::Vector3f coarse = ground_.at(x, y, footprint);
   if (footprint >= texel) return coarse;
   const auto column = static_cast<int>((x - extent.low.x()) / kTile);
   const auto row = static_cast<int>((y - extent.low.y()) / kTile);
-  const Texture* tile = tiles_[static_cast<std::size_t>(row * tile_columns_ + column)].get();
+  const Texture* tile =
+      tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) +
+             static_cast<std::size_t>(column)]
+          .get();
   if (tile == nullptr) return coarse;
   const Eigen::Vector3f fine = tile->finest(x, y).head<3>();
   const float share =

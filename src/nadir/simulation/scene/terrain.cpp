@@ -37,7 +37,7 @@ void draw_ground(Terrain& terrain) {
         for (int column = left; column < std::min(left + kBlock, width); ++column) {
           const Eigen::Vector2d point =
               terrain.extent.low + texel * Eigen::Vector2d(column + 0.5, row + 0.5);
-          const GroundSpot spot = terrain.model->locate(point, static_cast<float>(texel), nearby);
+          const GroundSpot spot = GroundModel::locate(point, static_cast<float>(texel), nearby);
           nodes.at(column, row) = static_cast<float>(terrain.height(spot));
           const GroundSample sample = terrain.sample(spot, nearby);
           for (int channel = 0; channel < 3; ++channel) {
@@ -161,7 +161,7 @@ GroundSample Terrain::sample(const GroundSpot& spot, const Nearby& nearby) const
 
 GroundSample Terrain::sample(const Eigen::Vector2d& point, float footprint,
                              const Nearby& nearby) const {
-  return sample(model->locate(point, footprint, nearby), nearby);
+  return sample(GroundModel::locate(point, footprint, nearby), nearby);
 }
 
 std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptions& options) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/simulation/scene/texture.hpp"
 
+#include <cstddef>
+#include <utility>
+
 namespace nadir::simulation {
 namespace {
 
@@ -31,9 +34,8 @@ Raster<std::uint8_t> halved(const Raster<std::uint8_t>& image) {
 
 }  // namespace
 
-Texture::Texture(Raster<std::uint8_t> image, const Eigen::Vector2d& low, double texel_m,
-                 bool reduced)
-    : low_(low) {
+Texture::Texture(Raster<std::uint8_t> image, Eigen::Vector2d low, double texel_m, bool reduced)
+    : low_(std::move(low)) {
   levels_.push_back({std::move(image), texel_m});
   while (reduced &&
          std::min(levels_.back().image.width(), levels_.back().image.height()) >= 2 * kSmallest) {
@@ -50,7 +52,7 @@ Eigen::Vector4f Texture::bilinear(const Level& level, double x, double y) const 
   const auto a = static_cast<float>(u - column);
   const auto b = static_cast<float>(v - row);
   const std::uint8_t* south = &image.at(column, row);
-  const std::uint8_t* north = south + image.width() * kChannels;
+  const std::uint8_t* north = south + static_cast<std::ptrdiff_t>(image.width()) * kChannels;
   // Interpolated in encoded values: between neighbours the difference to linear light is small.
   Eigen::Vector4f root;
   for (int channel = 0; channel < kChannels; ++channel) {

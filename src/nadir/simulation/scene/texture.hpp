@@ -14,7 +14,8 @@ namespace nadir::simulation {
 /// Linear colour as the square of eight bits: steps are fine where it is dark.
 inline std::uint8_t encoded(float linear) {
   const float root = std::sqrt(std::clamp(linear, 0.0F, 1.0F));
-  return static_cast<std::uint8_t>(root * 255.0F + 0.5F);
+  constexpr float kHalf = 0.5F;  // never negative: cutting off rounds
+  return static_cast<std::uint8_t>(root * 255.0F + kHalf);
 }
 
 /// A picture of the ground with its reduced copies, for pixels of any size. Four channels of eight
@@ -23,7 +24,7 @@ class Texture {
  public:
   Texture() = default;
   /// Texel (column, row) covers low + (column .. column + 1, row .. row + 1) texel_m.
-  Texture(Raster<std::uint8_t> image, const Eigen::Vector2d& low, double texel_m, bool reduced);
+  Texture(Raster<std::uint8_t> image, Eigen::Vector2d low, double texel_m, bool reduced);
 
   bool empty() const { return levels_.empty(); }
   /// Linear colour at a point for a pixel of width `footprint`, metres: trilinear.

@@ -71,18 +71,18 @@ void add_flat_roof(const Building& building, double eaves, const RandomStream& r
 
 void add_building(const Building& building, double ground, std::uint64_t seed,
                   std::vector<Solid>& solids) {
-  static const std::array<Rgb, 6> kWalls{Rgb(0.50F, 0.46F, 0.38F), Rgb(0.42F, 0.20F, 0.13F),
-                                         Rgb(0.55F, 0.53F, 0.50F), Rgb(0.45F, 0.36F, 0.24F),
-                                         Rgb(0.36F, 0.38F, 0.40F), Rgb(0.35F, 0.17F, 0.12F)};
+  static const std::array<Rgb, 6> wall_colours{Rgb(0.50F, 0.46F, 0.38F), Rgb(0.42F, 0.20F, 0.13F),
+                                               Rgb(0.55F, 0.53F, 0.50F), Rgb(0.45F, 0.36F, 0.24F),
+                                               Rgb(0.36F, 0.38F, 0.40F), Rgb(0.35F, 0.17F, 0.12F)};
   const RandomStream random(seed, kBuildingStream + building.look);
   const std::uint32_t number = next_number(solids);
-  const std::size_t look = building.look % kWalls.size();
+  const std::size_t look = building.look % wall_colours.size();
   const Material wall = look == 1 || look == 5 ? Material::kBrick : Material::kPlaster;
   const double eaves = ground + building.height;
   Block body = block_on(building.plan, ground - kUnderground, eaves);
   body.sides = wall;
   body.roof = Material::kFlatRoof;
-  Solid walls = make_block(body, kWalls[look], number);
+  Solid walls = make_block(body, wall_colours[look], number);
   walls.floor = ground;
   solids.push_back(walls);
   if (!building.gable) {
@@ -104,7 +104,7 @@ void add_building(const Building& building, double ground, std::uint64_t seed,
   chimney.half_length = chimney.half_width = 0.35;
   Block stack = block_on(chimney, eaves, eaves + ridge + 0.6);
   stack.sides = Material::kBrick;
-  solids.push_back(make_block(stack, kWalls[1], number));
+  solids.push_back(make_block(stack, wall_colours[1], number));
 }
 
 void add_tree(const Tree& tree, double ground, std::uint64_t seed, std::vector<Solid>& solids) {
@@ -196,14 +196,14 @@ void add_post(const Post& post, double ground, std::vector<Solid>& solids) {
 }
 
 void add_car(const Car& car, std::vector<Solid>& solids) {
-  static const std::array<Rgb, 8> kPaints{Rgb(0.60F, 0.60F, 0.60F),  Rgb(0.030F, 0.032F, 0.036F),
-                                          Rgb(0.36F, 0.37F, 0.39F),  Rgb(0.16F, 0.17F, 0.18F),
-                                          Rgb(0.35F, 0.035F, 0.03F), Rgb(0.04F, 0.09F, 0.26F),
-                                          Rgb(0.55F, 0.56F, 0.53F),  Rgb(0.07F, 0.14F, 0.10F)};
+  static const std::array<Rgb, 8> paints{Rgb(0.60F, 0.60F, 0.60F),  Rgb(0.030F, 0.032F, 0.036F),
+                                         Rgb(0.36F, 0.37F, 0.39F),  Rgb(0.16F, 0.17F, 0.18F),
+                                         Rgb(0.35F, 0.035F, 0.03F), Rgb(0.04F, 0.09F, 0.26F),
+                                         Rgb(0.55F, 0.56F, 0.53F),  Rgb(0.07F, 0.14F, 0.10F)};
   const RandomStream random(car.seed, 1);
   const std::uint32_t number = next_number(solids);
-  const auto paint =
-      kPaints[static_cast<std::size_t>(random.uniform(0) * static_cast<double>(kPaints.size()))];
+  const Rgb& paint =
+      paints[static_cast<std::size_t>(random.uniform(0) * static_cast<double>(paints.size()))];
   const double length = random.uniform(1, 3.9, 4.8);
   const double width = random.uniform(2, 1.72, 1.86);
   const double height = random.uniform(3, 1.42, 1.62);

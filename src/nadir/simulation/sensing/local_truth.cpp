@@ -56,8 +56,10 @@ LocalTruth local_truth(const Scene& scene, const Transform3<frames::Map, frames:
       };
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
-        const Eigen::Vector3d origin = above(column + (i % kRaysPerSide + 0.5) / kRaysPerSide,
-                                             row + (i / kRaysPerSide + 0.5) / kRaysPerSide);
+        const int across = i % kRaysPerSide;
+        const int downwards = i / kRaysPerSide;
+        const Eigen::Vector3d origin =
+            above(column + (across + 0.5) / kRaysPerSide, row + (downwards + 0.5) / kRaysPerSide);
         sum += scene.colour(origin, down, scene.caster().cast(origin, down), pixel);
       }
       for (int k = 0; k < 3; ++k) {

@@ -19,7 +19,7 @@ constexpr float kBrightest = 2.0F;  ///< radiance; white beyond
 
 /// The curve is tabulated over the square root, in which it is nearly straight.
 const std::array<float, kToneSteps + 1>& tone_table() {
-  static const std::array<float, kToneSteps + 1> kTable = [] {
+  static const std::array<float, kToneSteps + 1> values = [] {
     std::array<float, kToneSteps + 1> table{};
     for (int i = 0; i <= kToneSteps; ++i) {
       const float root = static_cast<float>(i) / kToneSteps;
@@ -31,7 +31,7 @@ const std::array<float, kToneSteps + 1>& tone_table() {
     }
     return table;
   }();
-  return kTable;
+  return values;
 }
 
 /// Gaussian weights of one side, the middle first.
@@ -93,7 +93,8 @@ std::array<float, 3> noise_at(std::uint64_t seed, std::uint64_t stream, std::uin
 }
 
 std::uint8_t rounded(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+  constexpr float kHalf = 0.5F;  // never negative: cutting off rounds
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + kHalf);
 }
 
 }  // namespace
