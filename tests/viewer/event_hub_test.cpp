@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/event_hub.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace nadir::cli {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(EventHub, GivesWhatCameAfterAnId) {
+  EventHub hub;
+  hub.publish("frame", "a");
+  hub.publish("frame", "b");
+  EXPECT_EQ(hub.newest(), 2U);
+  const auto news = hub.after(1, milliseconds(0));
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_EQ(news[0].id, 2U);
+  EXPECT_EQ(news[0].data, "b");
+  EXPECT_TRUE(hub.after(2, milliseconds(0)).empty());
+}
+
+TEST(EventHub, ASlowWatcherLosesTheOldestAndCostsNoMemory) {
+  EventHub hub(3);
+  for (int i = 1; i <= 10; ++i) hub.publish("frame", std::to_string(i));
+  const auto news = hub.after(0, milliseconds(0));
+  ASSERT_EQ(news.size(), 3U);
+  EXPECT_EQ(news.front().id, 8U);  // the ids show that 1 to 7 were lost
+}
+
+TEST(EventHub, WakesWhoWaits) {
+  EventHub hub;
+  std::thread publisher([&] { hub.publish("frame", "late"); });
+  const auto news = hub.after(0, milliseconds(10'000));
+  publisher.join();
+  ASSERT_EQ(news.size(), 1U);
+}
+
+TEST(EventHub, ClosingWakesAllAndEndsEverything) {
+  EventHub hub;
+  std::thread closer([&] { hub.close(); });
+  EXPECT_TRUE(hub.after(0, milliseconds(10'000)).empty());
+  closer.join();
+  hub.publish("frame", "too late");
+  EXPECT_EQ(hub.newest(), 0U);
+  EXPECT_TRUE(hub.closed());
+}
+
+}  // namespace
+}  // namespace nadir::cli
