@@ -8,10 +8,10 @@ export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 # ThreadSanitizer cannot place its shadow memory where the kernel randomises addresses too widely.
 NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
 
-.PHONY: help demo test bench format tidy asan tsan docs clean deps deps-quality build
+.PHONY: help demo test bench format tidy asan tsan docs web web-e2e clean deps deps-quality deps-web build
 
 help:  ## print this
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -n 's/^\([a-z0-9-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 demo: build  ## simulate a drive, localize it, write out/demo
 	build/release/bin/nadir demo -o out/demo --overwrite
@@ -44,6 +44,12 @@ docs: build  ## write docs/options.md and the figures that the project draws its
 	cp build/options.md docs/options.md
 	build/release/bin/docs_figures docs/images
 
+web: deps-web  ## check, test and build the viewer's page, web/dist
+	cd web && npm ci --no-audit --no-fund && npm run check && npm test && npm run build
+
+web-e2e: build web  ## the viewer in a headless Chromium, on a small simulated run
+	tools/web_e2e.sh
+
 clean:  ## remove what was built and what the demo wrote
 	rm -rf build out
 
@@ -56,3 +62,7 @@ deps:
 
 deps-quality:
 	@tools/install-deps.sh --quality
+
+# Node and a browser may have come from elsewhere than Debian's packages.
+deps-web:
+	@command -v npm >/dev/null && command -v chromium >/dev/null || tools/install-deps.sh --web

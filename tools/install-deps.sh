@@ -3,10 +3,11 @@
 # Installs what tools/apt-packages.txt names and this machine lacks; quick where nothing is missing.
 #   tools/install-deps.sh             what building and testing needs
 #   tools/install-deps.sh --quality   and what .ci/run needs on top
+#   tools/install-deps.sh --web       what changing the viewer's page needs
 set -euo pipefail
 
 usage() {
-  echo "usage: tools/install-deps.sh [--quality]" >&2
+  echo "usage: tools/install-deps.sh [--quality | --web]" >&2
   exit 2
 }
 
@@ -14,6 +15,7 @@ sections="build"
 case "${1:-}" in
   "") ;;
   --quality) sections="build quality" ;;
+  --web) sections="web" ;;
   *) usage ;;
 esac
 [[ $# -le 1 ]] || usage
