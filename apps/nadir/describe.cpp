@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "nadir/core/error.hpp"
+#include "nadir/io/bag_topics.hpp"
+#include "nadir/io/drive_reader.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
@@ -84,6 +86,37 @@ Json describe_site(const std::filesystem::path& folder) {
                             {"first", describe(read_frame(sequence, maps.front()).local)}};
   document["odometry"] = sequence.odometry ? describe_poses(*sequence.odometry) : Json(nullptr);
   document["truth"] = sequence.truth ? describe_poses(*sequence.truth) : Json(nullptr);
+  return document;
+}
+
+Json describe_drive(const std::filesystem::path& place) {
+  const Drive drive = open_drive(place);
+  Json document{{"kind", "drive"}, {"path", place.string()}};
+  for (const auto& [format, name] : kDriveFormatNames) {
+    if (format == drive.format) document["format"] = name;
+  }
+  document["sensor"] = drive.is_stereo() ? "stereo" : "lidar";
+  document["frames"] = drive.frames.size();
+  document["stamps"] = describe_stamps(drive.frames);
+  if (const auto* rig = std::get_if<StereoRig>(&drive.rig)) {
+    document["image_px"] = {rig->left.width, rig->left.height};
+    document["focal_px"] = rig->left.fx;
+    document["baseline_m"] = rig->baseline_m();
+    document["rectified"] = rig->rectified;
+  }
+  document["poses"] = drive.odometry ? Json(drive.odometry->size()) : Json(nullptr);
+  document["notes"] = drive.notes;
+  return document;
+}
+
+Json describe_bag(const std::filesystem::path& file) {
+  Json document{{"kind", "bag"}, {"path", file.string()}, {"topics", Json::object()}};
+  for (const BagTopic& topic : list_bag(file)) {
+    document["topics"][topic.name] = {{"type", topic.type},
+                                      {"messages", topic.messages},
+                                      {"first_s", to_string(topic.first)},
+                                      {"last_s", to_string(topic.last)}};
+  }
   return document;
 }
 

@@ -46,6 +46,7 @@ OptionTable option_table(StageOptions& options) {
   OptionTable table;
   declare(table, options.aerial_mapping);
   declare(table, options.ground_mapping);
+  declare(table, options.local_map);
   declare(table, options.localizer.matching);
   declare(table, options.localizer.localization);
   declare(table, options.localizer.registration);

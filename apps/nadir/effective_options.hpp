@@ -9,6 +9,7 @@
 
 #include "invocation.hpp"
 #include "nadir/aerial_mapping/options.hpp"
+#include "nadir/ground_mapping/local_map.hpp"
 #include "nadir/ground_mapping/options.hpp"
 #include "nadir/io/yaml_options.hpp"
 #include "nadir/localizer.hpp"
@@ -43,6 +44,7 @@ void add_option_flag(CLI::App& verb, OptionSources& sources, const std::string& 
 struct StageOptions {
   AerialMappingOptions aerial_mapping;
   GroundMappingOptions ground_mapping;
+  RenderOptions local_map;
   LocalizerOptions localizer;
   SimulationOptions simulation;
 };
@@ -67,6 +69,7 @@ class EffectiveOptions {
   const LocalizerOptions& values() const { return values_.localizer; }
   const AerialMappingOptions& aerial_mapping() const { return values_.aerial_mapping; }
   const GroundMappingOptions& ground_mapping() const { return values_.ground_mapping; }
+  const RenderOptions& local_map() const { return values_.local_map; }
   const SimulationOptions& simulation() const { return values_.simulation; }
   const OptionTable& table() const { return table_; }
   const OptionOrigins& origins() const { return origins_; }

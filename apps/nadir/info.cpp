@@ -8,6 +8,7 @@
 #include "add_verb.hpp"
 #include "describe.hpp"
 #include "nadir/core/error.hpp"
+#include "nadir/io/drive_reader.hpp"
 #include "verbs.hpp"
 
 namespace nadir::cli {
@@ -27,17 +28,32 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
+bool is_drive(const fs::path& folder) {
+  try {
+    guess_drive_format(folder);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 Json describe(const fs::path& path) {
   static const std::set<std::string> kImages{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
   static const std::set<std::string> kTrajectories{".tum", ".txt"};
   if (!fs::exists(path)) {
     throw Error(ErrorKind::kInput, "there is no such file or folder", path.string());
   }
-  if (fs::is_directory(path)) return describe_site(path);
+  if (lower_extension(path) == ".bag") return describe_bag(path);
+  if (fs::is_directory(path)) {
+    const bool site = fs::exists(path / "sequence.yaml") || !is_drive(path);
+    return site ? describe_site(path) : describe_drive(path);
+  }
   if (kImages.contains(lower_extension(path))) return describe_image(path);
   if (kTrajectories.contains(lower_extension(path))) return describe_trajectory(path);
-  throw Error(ErrorKind::kInput, "unknown kind of file", path.string(),
-              "info reads site folders, GeoTIFF, VRT, PNG, JPEG and TUM files (.tum, .txt)");
+  throw Error(
+      ErrorKind::kInput, "unknown kind of file", path.string(),
+      "info reads sites, recorded drives, ROS 1 bags, GeoTIFF, VRT, PNG, JPEG and TUM files "
+      "(.tum, .txt)");
 }
 
 /// "key: value" lines, nested by indentation.
@@ -64,14 +80,17 @@ int run(const InfoOptions& options, const Invocation& invocation) {
 
 void add_info(CLI::App& program, Invocation& invocation) {
   auto [verb, options] = add_verb<InfoOptions>(
-      program, invocation, "info", "Say what a site, an orthomosaic or a trajectory holds", run);
-  verb->add_option("path", options.path, "Site folder, GeoTIFF or image, or TUM trajectory")
+      program, invocation, "info",
+      "Say what a site, a drive, a bag, an orthomosaic or a trajectory holds", run);
+  verb->add_option("path", options.path,
+                   "Site or drive folder, ROS 1 bag, GeoTIFF or image, or TUM trajectory")
       ->type_name("PATH")
       ->required();
   verb->footer(
       "Examples:\n"
       "  nadir info out/aeroground\n"
-      "  nadir info campus.tif --json\n");
+      "  nadir info campus.tif --json\n"
+      "  nadir info drive.bag\n");
 }
 
 }  // namespace nadir::cli

@@ -2,6 +2,7 @@
 #include "add_verb.hpp"
 #include "localize_job.hpp"
 #include "nadir/core/error.hpp"
+#include "start_options.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
 #include "viewer/server_options.hpp"
@@ -42,14 +43,7 @@ void add_inputs(CLI::App& verb, LocalizeOptions& options) {
 }
 
 void add_start(CLI::App& verb, LocalizeOptions& options) {
-  verb.add_option("--prior", options.start.prior,
-                  "Where to start: metres and degrees in the map; or truth, the first true pose "
-                  "moved by the seed within the spread")
-      ->type_name("X,Y,YAW_DEG|truth");
-  verb.add_option("--prior-spread", options.start.spread,
-                  "Particles start uniform in +-METRES and +-DEGREES around the prior")
-      ->type_name("METRES,DEGREES")
-      ->capture_default_str();
+  add_start_options(verb, options.start);
   verb.add_option("--seeds", options.seeds, "Run this many seeds, from --seed on")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -42,24 +42,31 @@ class ParticleKeeper : public RunObserver {
 }  // namespace
 
 LocalizeJob::LocalizeJob(const LocalizeOptions& options, const Invocation& invocation, int threads)
+    : LocalizeJob({options.site, read_sequence(options.site), {}, {options.site}}, options,
+                  invocation, threads) {}
+
+LocalizeJob::LocalizeJob(LocalizeInput input, const LocalizeOptions& options,
+                         const Invocation& invocation, int threads)
     : options_(options),
       invocation_(invocation),
       threads_(threads),
       effective_(options.sources),
-      sequence_(read_sequence(options.site)),
-      frames_(frames_of(options, sequence_, invocation.common.quiet)),
-      map_file_(map_path(sequence_, options.map)),
-      surface_file_(surface_path(sequence_, options.map, options.surface,
+      input_(std::move(input)),
+      frames_(frames_of(options, input_.sequence, invocation.common.quiet)),
+      map_file_(map_path(input_.sequence, options.map)),
+      surface_file_(surface_path(input_.sequence, options.map, options.surface,
                                  effective_.values().matching.layers)),
-      use_odometry_file_(uses_odometry_file(options.odometry, sequence_)) {
+      use_odometry_file_(uses_odometry_file(options.odometry, input_.sequence)) {
   effective_.use_device(invocation.common.device);
-  if (use_odometry_file_) note_coverage(*sequence_.odometry, frames_, invocation.common.quiet);
-  start_of(options.start, truth_of(sequence_, frames_), invocation.common.seed);
+  if (use_odometry_file_) {
+    note_coverage(*input_.sequence.odometry, frames_, invocation.common.quiet);
+  }
+  start_of(options.start, truth_of(input_.sequence, frames_), invocation.common.seed);
   require_writable(options.run, invocation.common, inputs());
 }
 
 std::vector<std::filesystem::path> LocalizeJob::inputs() const {
-  std::vector<std::filesystem::path> inputs{options_.site};
+  std::vector<std::filesystem::path> inputs = input_.inputs;
   if (!options_.map.empty()) inputs.push_back(options_.map);
   if (!options_.surface.empty()) inputs.push_back(options_.surface);
   return inputs;
@@ -67,7 +74,7 @@ std::vector<std::filesystem::path> LocalizeJob::inputs() const {
 
 int LocalizeJob::explain() const {
   const Json plan{{"dry_run", true},
-                  {"site", options_.site.string()},
+                  {"site", input_.place.string()},
                   {"map", map_file_.string()},
                   {"surface", surface_file_ ? Json(surface_file_->string()) : Json(nullptr)},
                   {"frames", frames_.size()},
@@ -79,7 +86,7 @@ int LocalizeJob::explain() const {
     print(plan);
   } else {
     print(fmt::format("would localize {} frames of {} in {} with {} seeds, and write {}\n",
-                      frames_.size(), options_.site.string(), map_file_.string(), options_.seeds,
+                      frames_.size(), input_.place.string(), map_file_.string(), options_.seeds,
                       options_.run.string()));
   }
   return 0;
@@ -94,15 +101,15 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
   std::vector<SeedRun> runs;
   for (int k = 0; k < options_.seeds && !interrupted(); ++k) {
     const std::uint64_t seed = invocation_.common.seed + static_cast<std::uint64_t>(k);
-    const Prior start = start_of(options_.start, truth_of(sequence_, frames_), seed);
+    const Prior start = start_of(options_.start, truth_of(input_.sequence, frames_), seed);
     const std::filesystem::path run_folder =
         options_.seeds == 1 ? folder : folder / seed_folder(seed);
     create_folder(run_folder);
     ParticleKeeper particles(run_folder);
     std::vector<RunObserver*> observers{&particles};
     if (live_) observers.push_back(live_.get());
-    const RunPlan plan{map,   surface, sequence_,          frames_,  effective_.values(),
-                       start, seed,    use_odometry_file_, observers};
+    const RunPlan plan{map,   surface, input_.sequence,    frames_,   effective_.values(),
+                       start, seed,    use_odometry_file_, observers, input_.read};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
@@ -115,7 +122,7 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
 void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
                        const std::filesystem::path& folder) {
   const Evaluation* evaluation = run.judgement ? &run.judgement->evaluation : nullptr;
-  const std::string title = fmt::format("{}, seed {}", sequence_.name, run.seed);
+  const std::string title = fmt::format("{}, seed {}", input_.sequence.name, run.seed);
   figures_ = draw_run(folder, {map, run.result, run.truth, evaluation, title});
 }
 
@@ -126,7 +133,7 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
     write_file(folder / "summary.json", to_json(*summary).dump(2) + "\n");
   }
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
-  manifest.sources = {{"site", options_.site}, {"map", map_file_}};
+  manifest.sources = {{"site", input_.place}, {"map", map_file_}};
   if (surface_file_) manifest.sources.emplace_back("surface", *surface_file_);
   const bool partial = interrupted();
   manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
@@ -182,7 +189,7 @@ int LocalizeJob::run() {
     return 0;
   }
   throw Error(ErrorKind::kNoResult, "no local map could be compared with the map",
-              options_.site.string(), "check the prior and that map and site belong together");
+              input_.place.string(), "check the prior and that map and site belong together");
 }
 
 }  // namespace nadir::cli

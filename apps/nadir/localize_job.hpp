@@ -27,11 +27,24 @@ struct LocalizeOptions {
   OptionSources sources;
 };
 
-/// The work of `nadir localize`: read, run every seed, write, report.
+/// Where the local maps of a job come from: a site, or a drive that is mapped on the way.
+struct LocalizeInput {
+  std::filesystem::path place;  ///< of the site or the drive, for errors and records
+  /// A site as it was read; of a drive, one whose local maps have numbers and stamps, no files.
+  Sequence sequence;
+  FrameReader read;  ///< empty = from the files of the sequence
+  std::vector<std::filesystem::path> inputs;
+};
+
+/// The work of `nadir localize` and of the second half of `nadir run`: run every seed, write,
+/// report.
 class LocalizeJob {
  public:
   /// Reads the site and checks all options. Throws Error (usage, input).
   LocalizeJob(const LocalizeOptions& options, const Invocation& invocation, int threads);
+  /// The same of local maps from elsewhere.
+  LocalizeJob(LocalizeInput input, const LocalizeOptions& options, const Invocation& invocation,
+              int threads);
 
   /// --dry-run: says what would be done; returns the exit code.
   int explain() const;
@@ -50,7 +63,7 @@ class LocalizeJob {
   const Invocation& invocation_;
   int threads_;
   EffectiveOptions effective_;
-  Sequence sequence_;
+  LocalizeInput input_;
   std::vector<Sequence::LocalMap> frames_;
   std::filesystem::path map_file_;
   std::optional<std::filesystem::path> surface_file_;

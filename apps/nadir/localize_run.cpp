@@ -28,7 +28,7 @@ FrameRecord run_frame(Localizer& localizer, const RunPlan& plan,
   FrameRecord record;
   record.number = local_map.number;
   const Stopwatch decoding;
-  Frame frame = read_frame(plan.sequence, local_map);
+  Frame frame = plan.read ? plan.read(local_map) : read_frame(plan.sequence, local_map);
   record.decode_s = decoding.seconds();
   if (!plan.use_odometry_file) frame.odom_from_robot.reset();
   const Stopwatch updating;
@@ -78,7 +78,12 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
         localizer.start_near(start->pose, start->spread);
     }
     const Sequence::LocalMap& local_map = plan.frames[i];
-    result.records.push_back(run_frame(localizer, plan, local_map));
+    try {
+      result.records.push_back(run_frame(localizer, plan, local_map));
+    } catch (const Interrupted&) {  // while the local map was being made
+      result.interrupted = true;
+      break;
+    }
     if (is_swarm_instant(i, plan.frames.size())) {
       const ParticleSet& particles = localizer.particles();
       result.swarms.push_back({"frame " + std::to_string(local_map.number), particles.poses,

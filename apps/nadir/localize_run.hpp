@@ -34,6 +34,9 @@ class RunObserver {
   virtual std::optional<Prior> new_start() { return std::nullopt; }
 };
 
+/// Gives the frame of a local map; asked in their order.
+using FrameReader = std::function<Frame(const Sequence::LocalMap&)>;
+
 /// What to run.
 struct RunPlan {
   const Orthomosaic& map;
@@ -45,6 +48,7 @@ struct RunPlan {
   std::uint64_t seed = 0;
   bool use_odometry_file = true;  ///< else the odometry is registered from the local maps
   std::vector<RunObserver*> observers = {};
+  FrameReader read = {};  ///< empty = from the files of the sequence
 };
 
 struct RunResult {

@@ -60,6 +60,11 @@ Error unknown(const std::string& kind, const std::string& typed,
 }
 
 Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
+  // A word after the unknown verb may be a verb: `nadir lokalize site -o run`.
+  const std::vector<std::string> own = program.remaining(false);
+  if (!own.empty() && !own.front().starts_with('-')) {
+    return unknown("verb", own.front(), verb_names(program), full_name(program) + " --help");
+  }
   const CLI::App& verb = chosen(program);
   const std::string help = full_name(verb) + " --help";
   const std::vector<std::string> rest = program.remaining(true);

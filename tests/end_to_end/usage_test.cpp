@@ -13,6 +13,8 @@ namespace nadir::testing {
 namespace {
 
 const std::vector<std::vector<std::string>> kVerbs{{"convert", "aeroground"},
+                                                   {"ground"},
+                                                   {"run"},
                                                    {"info"},
                                                    {"match"},
                                                    {"localize"},

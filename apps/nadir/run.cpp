@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "add_verb.hpp"
+#include "run_job.hpp"
+#include "start_options.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace nadir::cli {
+namespace {
+
+struct RunVerbOptions {
+  DriveOptionsOfVerb drive;
+  LocalizeOptions localizing;
+};
+
+int run(const RunVerbOptions& options, const Invocation& invocation) {
+  require_device(invocation.common);
+  const ThreadLimit limit(invocation.common);
+  RunJob job(options.drive, options.localizing, invocation, limit.threads());
+  if (invocation.common.dry_run) return job.explain();
+  return job.run();
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Invocation& invocation) {
+  auto [verb, options] = add_verb<RunVerbOptions>(
+      program, invocation, "run", "Map a recorded drive and localize it on the way", run);
+  add_drive_options(*verb, options.drive);
+  verb->add_option("-o,--output", options.localizing.run, "Run folder to write")
+      ->type_name("RUN")
+      ->required();
+  verb->add_option("--map", options.localizing.map, "The drone's orthomosaic")
+      ->type_name("FILE")
+      ->required();
+  verb->add_option("--surface", options.localizing.surface, "Its heights, to be compared too")
+      ->type_name("FILE");
+  add_start_options(*verb, options.localizing.start);
+  add_option_sources(*verb, options.localizing.sources);
+  add_option_flag(*verb, options.localizing.sources, "--score", "map_matching.score");
+  add_option_flag(*verb, options.localizing.sources, "--particles", "localization.particles");
+  add_writing_options(*verb, invocation.common);
+  add_computing_options(*verb, invocation.common);
+  verb->footer(
+      "Examples:\n"
+      "  nadir run drive --map campus.tif -o out/run --prior 12.0,30.5,90\n"
+      "  nadir run drive.bag --map campus.tif -o out/run --prior 12.0,30.5,90 --every 1m --json\n"
+      "The same as `nadir ground` and `nadir localize` without files between them: RUN is what\n"
+      "`nadir localize` writes, INPUT what `nadir ground` takes.\n");
+}
+
+}  // namespace nadir::cli

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user gets wrong about a drive is one line that names it and the cure, the right exit code,
+// and nothing half-written. tests/io/drive_bad_input_test.cpp has the files in detail.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "end_to_end/nadir_process.hpp"
+#include "end_to_end/small_drive.hpp"
+#include "nadir/io/image.hpp"
+
+namespace nadir::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class GroundBadInput : public ::testing::Test {
+ protected:
+  GroundBadInput() {
+    fs::remove_all(place_);
+    fs::create_directories(place_);
+    fs::remove_all(scratch_folder() / "spoiled");
+    drive_ = copy_of_small_drive("spoiled");
+  }
+
+  Outcome ground(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"ground", drive_.string(), "-o", (place_ / "site").string(),
+                                       "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return nadir(arguments);
+  }
+
+  void expect_refused(const Outcome& outcome, int exit_code,
+                      const std::vector<std::string>& parts) const {
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.errors;
+    EXPECT_TRUE(outcome.errors.starts_with("nadir: error: ")) << outcome.errors;
+    EXPECT_EQ(std::ranges::count(outcome.errors, '\n'), 1) << outcome.errors;
+    for (const std::string& part : parts) {
+      EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " in " << outcome.errors;
+    }
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_TRUE(fs::is_empty(place_)) << fs::directory_iterator(place_)->path();
+  }
+
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read_file(drive_ / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from << " in " << file;
+    write_file_as(drive_ / file, text.replace(at, from.size(), to));
+  }
+
+  std::vector<std::string> warnings_of(const Outcome& outcome) const {
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    if (outcome.exit_code != 0) return {};
+    return Json::parse(outcome.output)["warnings"].get<std::vector<std::string>>();
+  }
+
+  fs::path place_ = scratch_folder() / "ground_place";
+  fs::path drive_;
+};
+
+bool any_holds(const std::vector<std::string>& sentences, const std::string& part) {
+  return std::ranges::any_of(sentences, [&](const std::string& sentence) {
+    return sentence.find(part) != std::string::npos;
+  });
+}
+
+TEST_F(GroundBadInput, NoPoses) {
+  fs::remove(drive_ / "odometry.tum");
+  fs::remove(drive_ / "poses.txt");
+  expect_refused(ground(), 3, {"no poses", "--poses FILE", "TUM", "no visual odometry"});
+}
+
+TEST_F(GroundBadInput, PosesOfAnotherTime) {
+  write_file_as(drive_ / "odometry.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  expect_refused(ground(), 3, {"cover none of the frames", "5.0", "100.0", "clock"});
+}
+
+TEST_F(GroundBadInput, PosesOfAnotherFrame) {
+  expect_refused(ground({"--poses", (drive_ / "poses.txt").string(), "--pose-frame", "robot"}), 3,
+                 {"poses.txt", "z-forward", "--pose-frame camera"});
+}
+
+TEST_F(GroundBadInput, MissingPartnerAndPointer) {
+  fs::remove(drive_ / "image_1" / "000007.png");
+  expect_refused(ground(), 3, {"image_0/000007.png", "no partner", "24", "23"});
+  write_file_as(drive_ / "image_1" / "000007.png",
+                "version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+  expect_refused(ground(), 3, {"frame 7", "image_1/000007.png", "git lfs pull"});
+}
+
+TEST_F(GroundBadInput, OtherSizeInTheMiddle) {
+  write_png(drive_ / "image_1" / "000004.png", Raster<std::uint8_t>(300, 160, 9));
+  expect_refused(ground(), 3, {"frame 4", "320 x 160", "300 x 160"});
+}
+
+TEST_F(GroundBadInput, SwappedImages) {
+  fs::rename(drive_ / "image_0", drive_ / "left");
+  fs::rename(drive_ / "image_1", drive_ / "image_0");
+  fs::rename(drive_ / "left", drive_ / "image_1");
+  expect_refused(ground(), 3, {"swap"});
+}
+
+TEST_F(GroundBadInput, BaselineInMillimetres) {
+  replace("calib.txt", "-6.000000000000e+01", "-6.000000000000e+04");
+  expect_refused(ground(), 3, {"millimetres"});
+}
+
+TEST_F(GroundBadInput, NoBaseline) {
+  replace("calib.txt", "-6.000000000000e+01", "0");
+  expect_refused(ground(), 3, {"calib.txt:2", "no baseline"});
+}
+
+TEST_F(GroundBadInput, OptionsThatCannotBe) {
+  expect_refused(ground({"--set", "ground_mapping.disparities=320"}), 2, {"320", "disparities"});
+  expect_refused(ground({"--size", "60"}), 2, {"60 x 60 m", "51.2 x 51.2 m"});
+  expect_refused(ground({"--set", "ground_mapping.grid_cells=300"}), 2, {"grid_cells", "power of"});
+  expect_refused(ground({"--every", "0m"}), 2, {"--every", "1m"});
+  expect_refused(ground({"--first", "24"}), 2, {"--first 24", "24 frames"});
+}
+
+TEST_F(GroundBadInput, BlindFrameIsLeftOutAndSaid) {
+  for (const char* camera : {"image_0", "image_1"}) {
+    write_png(drive_ / camera / "000005.png", Raster<std::uint8_t>(320, 160, 90));
+  }
+  const Outcome outcome = ground({"--json"});
+  EXPECT_TRUE(any_holds(warnings_of(outcome), "frame skipped")) << outcome.output;
+  EXPECT_NE(read_file(place_ / "site" / "frames.csv").find("\n5,101.250000000,no_points"),
+            std::string::npos);
+}
+
+TEST_F(GroundBadInput, WrongPosesAreFoundOut) {
+  std::string text;
+  for (int i = 0; i < kSmallDriveFrames; ++i) {  // straight on, where the drive is a curve
+    text += std::to_string(100.0 + 0.25 * i) + " " + std::to_string(0.3 * i) + " 0 0 0 0 0 1\n";
+  }
+  write_file_as(drive_ / "wrong.tum", text);
+  const Outcome outcome =
+      ground({"--self-check", "--json", "--poses", (drive_ / "wrong.tum").string()});
+  EXPECT_TRUE(any_holds(warnings_of(outcome), "poses")) << outcome.output;
+}
+
+}  // namespace
+}  // namespace nadir::testing
