@@ -11,8 +11,11 @@
 namespace nadir {
 namespace {
 
-constexpr int kCoarsePlaces = 64;
-constexpr int kFinePlaces = 8;  // or as many candidates as are asked for
+constexpr int kCoarsePlaces = 192;
+/// Of full resolution, or as many as candidates are asked for. Neighbours on a ridge stay apart:
+/// the best of one at half the resolution need not be its best.
+constexpr int kFinePlaces = 48;
+constexpr int kClimbedPlaces = 16;
 
 double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -113,10 +116,12 @@ std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& l
       half_map, half, places,
       {.positions = 2, .step = 2.0 * resolution, .headings = turns, .yaw_step = yaw_step / 3.0});
   const auto fine = static_cast<std::size_t>(std::max(kFinePlaces, map.options().candidates));
-  places = best_places(std::move(places), fine, map.options().peak_separation_m, kPi);
+  places = best_places(std::move(places), fine, 3.0 * resolution, 0.5 * yaw_step);
   places = best_around(
       map, local, places,
       {.positions = 2, .step = resolution, .headings = 2 * turns, .yaw_step = yaw_step / 6.0});
+  const auto climbed = static_cast<std::size_t>(std::max(kClimbedPlaces, map.options().candidates));
+  places = best_places(std::move(places), climbed, 2.0 * resolution, 0.2 * yaw_step);
   for (MatchCandidate& place : places) place = climb(map, local, place, turns > 0);
   return best_places(std::move(places), static_cast<std::size_t>(map.options().candidates),
                      map.options().peak_separation_m, kPi);

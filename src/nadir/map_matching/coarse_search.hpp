@@ -9,7 +9,7 @@ namespace nadir {
 ChannelImage halved(const ChannelImage& channel);
 
 /// Candidates from coarse to fine: `volume` was scored on `map` at a quarter of the resolution with
-/// `quarter`; the best 64 places are scored around at half the resolution, the best of those at
+/// `quarter`; the best places are scored around at half the resolution, the best of those at
 /// full resolution, and climbed. Best first, separated as the options say.
 std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& local,
                                           const ScoreVolume& volume);

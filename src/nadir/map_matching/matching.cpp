@@ -181,6 +181,7 @@ const MapIndex& MapIndex::coarser() const {
   std::call_once(coarser_->once, [this] {
     MatchingOptions options = options_;
     options.resolution_m *= 2.0;
+    options.min_valid_weight *= 0.93;  // coarse pixels are lost at the edges of holes
     coarser_->index.reset(new MapIndex(options, halved(channel_)));
   });
   return *coarser_->index;

@@ -52,8 +52,8 @@ void declare(OptionTable& table, MatchingOptions& options) {
   table.choice<PoseScoring>(
       stage + "pose_scoring", options.pose_scoring, kPoseScoringNames,
       "How particles are scored: exactly, or interpolated between score "
-      "surfaces; auto interpolates where that costs a quarter for their number and "
-      "spread.",
+      "surfaces; auto interpolates where that costs a sixteenth (wncc_paper: a half) for their "
+      "number and spread.",
       "docs/performance.md");
   table.number(stage + "resolution_m", options.resolution_m, {0.005, 10.0},
                "Metres per pixel at which both maps are compared.", "paper, section II");

@@ -69,7 +69,7 @@ inline constexpr std::array<std::pair<Search, const char*>, 3> kSearchNames{
 
 /// How the poses of particles are scored.
 enum class PoseScoring {
-  kAuto,     ///< interpolated where that costs a quarter of exact scores
+  kAuto,     ///< interpolated where that costs a small part of exact scores
   kExact,    ///< the map is sampled under every template pixel of every pose
   kSurface,  ///< interpolated between score surfaces of a few headings
 };

@@ -19,9 +19,10 @@ constexpr double kYawStepPx = 0.75;
 /// Positions times headings that are held at most: 8 bytes each.
 constexpr double kLargestVolume = 2e7;
 
-/// Interpolated scores differ by about 2e-3 from exact ones: `auto` takes them only where that buys
-/// a multiple of speed.
-constexpr double kWorthwhile = 4.0;
+/// Interpolated scores differ by about 3e-3 from exact ones (docs/performance.md): `auto` takes
+/// them only where that buys this multiple of speed. wncc_paper has no fast exact form.
+constexpr double kWorthwhile = 16.0;
+constexpr double kWorthwhileOfPaper = 2.0;
 
 // Measured on one core, nanoseconds; only their ratio decides.
 constexpr double kExactNs = 1.2;       ///< a valid template pixel of a pose
@@ -104,7 +105,7 @@ class PoseSurfaces {
   PoseSurfaces(const MapIndex& map, const Template& local, const Cover& cover)
       : map_(map), cover_(cover) {
     std::vector<double> yaws;
-    for (double k = 0.0; k < cover.headings; k += 1.0) {
+    for (int k = 0; k < static_cast<int>(cover.headings); ++k) {
       yaws.push_back(cover.first_yaw + k * cover.yaw_step);
     }
     const std::vector<RotatedTemplate> templates = rotate_templates(
@@ -125,7 +126,8 @@ class PoseSurfaces {
     PoseScore result{0.0, 0.0};
     for (const int k : {0, 1}) {
       if (heading.share(k) == 0.0) continue;
-      const ScoreSurface& surface = surfaces_[static_cast<std::size_t>(heading.index + k)];
+      const ScoreSurface& surface =
+          surfaces_[static_cast<std::size_t>(heading.index) + static_cast<std::size_t>(k)];
       for (const int j : {0, 1}) {
         for (const int i : {0, 1}) {
           const double share = heading.share(k) * row.share(j) * column.share(i);
@@ -169,7 +171,8 @@ bool takes_surfaces(const MapIndex& map, const Template& local,
   const Cover around = cover(map, local, map_from_robot);
   if (around.headings == 0.0 || around.voxels() > kLargestVolume) return false;
   if (options.pose_scoring == PoseScoring::kSurface) return true;
-  return options.backend == Backend::kCpu && kWorthwhile * surface_cost(map, local, around) <
+  const double worthwhile = options.score == Score::kWnccPaper ? kWorthwhileOfPaper : kWorthwhile;
+  return options.backend == Backend::kCpu && worthwhile * surface_cost(map, local, around) <
                                                  exact_cost(map, local, map_from_robot.size());
 }
 

@@ -35,6 +35,7 @@ HWY_BEFORE_NAMESPACE();
 // and the functions of two targets must not be taken for one another.
 #undef POCKETFFT_HDRONLY_H
 #undef pocketfft
+// NOLINTNEXTLINE(readability-identifier-naming): it renames their namespace
 #define pocketfft HWY_CONCAT(pocketfft_, HWY_NAMESPACE)
 #include <pocketfft_hdronly.h>
 
@@ -90,18 +91,18 @@ constexpr int second_source(std::size_t lane, std::size_t step) {
   return static_cast<int>((lane & step) == 0 ? lane + step : lane + kLanes);
 }
 
-template <std::size_t kStep, std::size_t... kLane>
-HWY_INLINE void exchange(Lanes& a, Lanes& b, std::index_sequence<kLane...> /*lanes*/) {
-  const Lanes first = __builtin_shufflevector(a, b, first_source(kLane, kStep)...);
-  b = __builtin_shufflevector(a, b, second_source(kLane, kStep)...);
+template <std::size_t Step, std::size_t... Lane>
+HWY_INLINE void exchange(Lanes& a, Lanes& b, std::index_sequence<Lane...> /*lanes*/) {
+  const Lanes first = __builtin_shufflevector(a, b, first_source(Lane, Step)...);
+  b = __builtin_shufflevector(a, b, second_source(Lane, Step)...);
   a = first;
 }
 
-template <std::size_t kStep>
+template <std::size_t Step>
 HWY_INLINE void transpose_step(Lanes* rows) {
   for (std::size_t i = 0; i < kLanes; ++i) {
-    if ((i & kStep) == 0) {
-      exchange<kStep>(rows[i], rows[i + kStep], std::make_index_sequence<kLanes>());
+    if ((i & Step) == 0) {
+      exchange<Step>(rows[i], rows[i + Step], std::make_index_sequence<kLanes>());
     }
   }
 }
@@ -286,10 +287,10 @@ class Kernels : public FftKernels {
     }
   }
 
-  static void read_tile(const float* image, std::size_t stride, std::size_t rows,
-                        std::size_t columns, Lanes* tile) {
+  static void read_tile(const float* image, std::size_t columns, std::size_t rows,
+                        std::size_t count, Lanes* tile) {
     for (std::size_t r = 0; r < kLanes; ++r) {
-      tile[r] = r < rows ? load_part(image + r * stride, columns) : Lanes{};
+      tile[r] = r < rows ? load_part(image + r * columns, count) : Lanes{};
     }
     transpose(tile);
   }

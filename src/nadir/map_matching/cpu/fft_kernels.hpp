@@ -58,6 +58,8 @@ class FftKernels {
   FftKernels() = default;
   FftKernels(const FftKernels&) = delete;
   FftKernels& operator=(const FftKernels&) = delete;
+  FftKernels(FftKernels&&) = delete;
+  FftKernels& operator=(FftKernels&&) = delete;
 
   virtual std::size_t lanes() const = 0;
   /// Transforms rows (at most 2 `lanes`) of an image along x, padded with zeros, two real rows as
