@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "add_verb.hpp"
+#include "convert_map.hpp"
 #include "interrupt.hpp"
 #include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
@@ -82,7 +83,8 @@ int run(const ConvertOptions& options, const Invocation& invocation) {
 }  // namespace
 
 void add_convert(CLI::App& program, Invocation& invocation) {
-  auto& parent = *program.add_subcommand("convert", "Turn a data set into a site folder");
+  auto& parent = *program.add_subcommand(
+      "convert", "Turn a data set into a site folder, or a map into one for nadir");
   parent.require_subcommand(1);
   parent.footer("Example:\n  nadir convert aeroground data/aeroground -o out/aeroground\n");
   auto [verb, options] = add_verb<ConvertOptions>(
@@ -100,6 +102,7 @@ void add_convert(CLI::App& program, Invocation& invocation) {
       "Examples:\n"
       "  nadir convert aeroground data/aeroground -o out/aeroground\n"
       "  nadir convert aeroground data/aeroground --truth survey.txt -o out/site --overwrite\n");
+  add_convert_map(parent, invocation);
 }
 
 }  // namespace nadir::cli

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "flight_control.hpp"
+#include "flight_poses.hpp"
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/image_file_check.hpp"
@@ -126,6 +127,7 @@ void add_photos(std::vector<FlightPhoto> photos, const AerialMappingOptions& opt
     photo.camera = cameras.camera_of[i];
     photo.prior = prior_of(input.photos[i], frame);
     photo.load = pixels.loader(photos[check.used[i]].file);
+    input.files.push_back(photos[check.used[i]].file);
     input.set.photos.push_back(std::move(photo));
   }
   input.estimate = estimate_flight(input.photos);
@@ -199,6 +201,7 @@ FlightInput read_flight(const FlightFiles& files, const AerialMappingOptions& op
   if (input.frame) input.set.crs = input.frame->crs();
   add_photos(std::move(photos), options, input);
   require_scale(input, files);
+  if (!files.poses.empty()) add_poses(files.poses, input);
   if (!points.empty()) {
     add_control_points(points, files.control_points, input);
   }

@@ -27,9 +27,10 @@ struct FlightFiles {
 /// A flight as it was read, ready to be mapped.
 struct FlightInput {
   PhotoSet set;
-  std::optional<MetricFrame> frame;   ///< none = local metres
-  int found = 0;                      ///< photos in the folder
-  std::vector<PhotoMetadata> photos;  ///< those that take part, in the order of the set
+  std::optional<MetricFrame> frame;          ///< none = local metres
+  int found = 0;                             ///< photos in the folder
+  std::vector<PhotoMetadata> photos;         ///< those that take part, in the order of the set
+  std::vector<std::filesystem::path> files;  ///< of these photos
   std::vector<std::string> warnings;
   FlightEstimate estimate;
 };

@@ -17,6 +17,7 @@
 #include "progress.hpp"
 #include "run_figures.hpp"
 #include "run_files.hpp"
+#include "run_tracks.hpp"
 #include "site.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <unistd.h>
+
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "flight_poses.hpp"
 #include "interrupt.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/colmap_process.hpp"
 #include "progress.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
@@ -52,6 +55,27 @@ int explain(const MapOptions& options, const FlightInput& input, const CommonOpt
                       input.estimate.height_m, options.map.string()));
   }
   return 0;
+}
+
+/// In a folder beside the map, which goes when the poses have been read.
+void solve_by_colmap(const MapOptions& options, const CommonOptions& common, FlightInput& input) {
+  const fs::path work = options.map.parent_path() /
+                        ("." + options.map.stem().string() + ".colmap-" + std::to_string(getpid()));
+  fs::create_directories(work);
+  std::vector<std::string> names;
+  for (const fs::path& file : input.files) {
+    names.push_back(fs::relative(file, options.flight.photos).string());
+  }
+  try {
+    add_poses(run_colmap(options.flight.photos, names, work,
+                         [&](const std::string& step) { print_note(step, common.quiet); }),
+              "colmap", input);
+  } catch (const Error& error) {
+    // Its log is worth keeping where it ran at all.
+    if (error.kind() == ErrorKind::kUsage) fs::remove_all(work);
+    throw;
+  }
+  fs::remove_all(work);
 }
 
 /// "photos A..F do not join B..K", where they do not.
@@ -117,26 +141,13 @@ void check_size(const AerialMappingOptions& options, const fs::path& map, Flight
   }
 }
 
-int map_flight(const MapOptions& options, const Invocation& invocation) {
-  const CommonOptions& common = invocation.common;
-  const ThreadLimit limit(common);
-  const EffectiveOptions effective(options.sources);
-  const AerialMappingOptions& stage = effective.aerial_mapping();
-  require_new(options.map, common);
+int write_map(AerialMap map, const FlightInput& input, const MapOptions& options,
+              const CommonOptions& common) {
   const Stopwatch stopwatch;
-  FlightInput input = read_input(options, stage, common);
-  const double read_s = stopwatch.seconds();
-  check_size(stage, options.map, input);
-  for (const std::string& warning : input.warnings) print_note(warning, common.quiet);
-  if (common.dry_run) return explain(options, input, common);
-
-  AerialMap map = map_photos(input.set, stage, mapping_progress(common));
-  const Stopwatch writing;
   const MapFiles files(options.map);
   write_file(files.page, report_page(map, input, options.map.filename().string()));
   write_map_files(files, map);
-  map.report.seconds.insert(map.report.seconds.begin(), {"read", read_s});
-  map.report.seconds.emplace_back("write", writing.seconds());
+  map.report.seconds.emplace_back("write", stopwatch.seconds());
   write_file(files.report, report_of(map, input).dump(2) + "\n");
   for (const std::string& warning : map.report.warnings) print_note(warning, common.quiet);
   common.json ? print(summary_of(map, input))
@@ -145,6 +156,32 @@ int map_flight(const MapOptions& options, const Invocation& invocation) {
   if (!parts || options.allow_parts) return 0;
   print_error(*parts + "; give --allow-parts to take that as a success");
   return static_cast<int>(ErrorKind::kProcessing);
+}
+
+int map_flight(const MapOptions& options, const Invocation& invocation) {
+  const CommonOptions& common = invocation.common;
+  const ThreadLimit limit(common);
+  const EffectiveOptions effective(options.sources);
+  AerialMappingOptions stage = effective.aerial_mapping();
+  require_new(options.map, common);
+  const Stopwatch stopwatch;
+  FlightInput input = read_input(options, stage, common);
+  const double read_s = stopwatch.seconds();
+  for (const std::string& warning : input.warnings) print_note(warning, common.quiet);
+  const std::size_t told = input.warnings.size();
+  check_size(stage, options.map, input);
+  for (std::size_t i = told; i < input.warnings.size(); ++i) {
+    print_note(input.warnings[i], common.quiet);
+  }
+  if (common.dry_run) return explain(options, input, common);
+
+  if (options.sfm == "colmap") {
+    solve_by_colmap(options, common, input);
+    stage.refine_given_poses = true;  // so that positions, gimbal and focal length have their say
+  }
+  AerialMap map = map_photos(input.set, stage, mapping_progress(common));
+  map.report.seconds.insert(map.report.seconds.begin(), {"read", read_s});
+  return write_map(map, input, options, common);
 }
 
 }  // namespace nadir::cli

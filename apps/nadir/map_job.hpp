@@ -26,6 +26,10 @@ struct MapOptions {
 /// parts are not allowed.
 int map_flight(const MapOptions& options, const Invocation& invocation);
 
+/// Writes the map's files and reports it; returns the exit code as map_flight does.
+int write_map(AerialMap map, const FlightInput& input, const MapOptions& options,
+              const CommonOptions& common);
+
 /// Tells how far the mapping has come, with one bar over all stages. Throws Interrupted.
 MappingProgress mapping_progress(const CommonOptions& common);
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "nadir/io/detail/gdal_geo_reference.hpp"
+#include "nadir/io/detail/orthomosaic_bands.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
@@ -16,33 +17,6 @@ namespace nadir {
 namespace {
 
 constexpr std::uint8_t kSeen = 255;
-
-std::string translate_line(const std::filesystem::path& path, const std::string& arguments) {
-  return fmt::format("convert it: gdal_translate {} {} out.tif", arguments, path.string());
-}
-
-/// Compressed images are decoded without a word where they end too early.
-void check_file(const std::filesystem::path& path) {
-  if (path.string().starts_with("/vsi")) return;  // GDAL's virtual file systems
-  check_input_file(path);
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
-    check_image_is_whole(path, read_file(path));
-  }
-}
-
-GdalDataset open(const std::filesystem::path& path, const GdalErrors& errors) {
-  GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset || dataset->GetRasterCount() == 0) {
-    throw input_error(path,
-                      "is not an image that GDAL can open" +
-                          (errors.failed() ? " (" + errors.first_failure() + ")" : ""),
-                      "give a GeoTIFF, COG, VRT, PNG or JPEG file");
-  }
-  return dataset;
-}
 
 void check_pixel_type(GDALDataset& dataset, const std::filesystem::path& path) {
   for (int number = 1; number <= dataset.GetRasterCount(); ++number) {
@@ -62,7 +36,48 @@ void check_pixel_type(GDALDataset& dataset, const std::filesystem::path& path) {
   }
 }
 
-/// The bands that hold grey, or red, green and blue in this order.
+GeoReference geo_reference(GDALDataset& dataset, const std::filesystem::path& path,
+                           std::optional<PlainImageGeo> plain) {
+  if (auto geo = read_geo_reference(dataset, path)) return *geo;
+  if (!plain) {
+    throw input_error(path, "it has no geo-reference",
+                      "give its metres per pixel, or put a world file beside it");
+  }
+  if (!(plain->metres_per_pixel > 0.0)) {
+    throw Error(ErrorKind::kUsage, "metres per pixel must be above 0", path.string());
+  }
+  return {0.0, dataset.GetRasterYSize() * plain->metres_per_pixel, plain->metres_per_pixel, {}};
+}
+
+}  // namespace
+
+std::string translate_line(const std::filesystem::path& path, const std::string& arguments) {
+  return fmt::format("convert it: gdal_translate {} {} out.tif", arguments, path.string());
+}
+
+/// Compressed images are decoded without a word where they end too early.
+void check_orthomosaic_file(const std::filesystem::path& path) {
+  if (path.string().starts_with("/vsi")) return;  // GDAL's virtual file systems
+  check_input_file(path);
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
+    check_image_is_whole(path, read_file(path));
+  }
+}
+
+GdalDataset open_image(const std::filesystem::path& path, const GdalErrors& errors) {
+  GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset || dataset->GetRasterCount() == 0) {
+    throw input_error(path,
+                      "is not an image that GDAL can open" +
+                          (errors.failed() ? " (" + errors.first_failure() + ")" : ""),
+                      "give a GeoTIFF, COG, VRT, PNG or JPEG file");
+  }
+  return dataset;
+}
+
 std::vector<int> colour_bands(GDALDataset& dataset, const std::filesystem::path& path) {
   std::array<int, 3> rgb{};
   std::vector<int> colours;
@@ -100,8 +115,6 @@ void read_band(GDALRasterBand& band, Raster<std::uint8_t>& into, int channel,
   }
 }
 
-/// Where GDAL's masks of the colour bands see anything: alpha and mask bands are shared by all of
-/// them, and a pixel is nodata only where every colour is.
 Raster<std::uint8_t> read_validity(GDALDataset& dataset, std::span<const int> bands,
                                    const std::filesystem::path& path, const GdalErrors& errors) {
   const int width = dataset.GetRasterXSize();
@@ -121,28 +134,13 @@ Raster<std::uint8_t> read_validity(GDALDataset& dataset, std::span<const int> ba
   return valid;
 }
 
-GeoReference geo_reference(GDALDataset& dataset, const std::filesystem::path& path,
-                           std::optional<PlainImageGeo> plain) {
-  if (auto geo = read_geo_reference(dataset, path)) return *geo;
-  if (!plain) {
-    throw input_error(path, "it has no geo-reference",
-                      "give its metres per pixel, or put a world file beside it");
-  }
-  if (!(plain->metres_per_pixel > 0.0)) {
-    throw Error(ErrorKind::kUsage, "metres per pixel must be above 0", path.string());
-  }
-  return {0.0, dataset.GetRasterYSize() * plain->metres_per_pixel, plain->metres_per_pixel, {}};
-}
-
-}  // namespace
-
 Orthomosaic read_orthomosaic(const std::filesystem::path& path,
                              std::optional<PlainImageGeo> plain) {
-  check_file(path);
+  check_orthomosaic_file(path);
   gdal_driver("GTiff");
   const GdalErrors errors;
   const GdalSetting strict("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
-  const GdalDataset dataset = open(path, errors);
+  const GdalDataset dataset = open_image(path, errors);
   check_pixel_type(*dataset, path);
   const std::vector<int> bands = colour_bands(*dataset, path);
   const int width = dataset->GetRasterXSize();

@@ -16,8 +16,10 @@ namespace {
 using GeoTransform = std::array<double, 6>;  ///< x = t0 + column t1 + row t2, y = t3 + ...
 
 std::string warp_line(const std::filesystem::path& path, const std::string& arguments) {
-  return fmt::format("resample it: gdalwarp {} -r cubic -dstalpha {} north_up.tif", arguments,
-                     path.string());
+  return fmt::format(
+      "bring it in: nadir convert map {1} -o north_up.tif, or gdalwarp {0} -r cubic -dstalpha {1} "
+      "north_up.tif",
+      arguments, path.string());
 }
 
 std::string text_of(char* allocated_by_gdal) {

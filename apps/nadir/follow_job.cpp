@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "follow_job.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "interrupt.hpp"
+#include "nadir/aerial_mapping/incremental_mapper.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/io/atomic_file.hpp"
+#include "nadir/io/image_file_check.hpp"
+#include "nadir/io/input_file.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/photo_file.hpp"
+#include "photo_pixels.hpp"
+#include "stopwatch.hpp"
+#include "threads.hpp"
+
+namespace nadir::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Finds files of a folder that have come and whose size has stood still.
+class Arrivals {
+ public:
+  explicit Arrivals(fs::path folder) : folder_(std::move(folder)) {}
+
+  /// The next whole photos, by name.
+  std::vector<fs::path> next() {
+    std::vector<fs::path> ready;
+    for (const fs::path& file : files()) {
+      if (taken_.contains(file)) continue;
+      std::error_code gone;
+      const auto size = fs::file_size(file, gone);
+      if (gone || size == 0) continue;
+      const auto [seen, added] = seen_.try_emplace(file, Seen{size, Clock::now()});
+      if (seen->second.size != size) seen->second = {size, Clock::now()};
+      if (Clock::now() - seen->second.since < kStable) continue;
+      ready.push_back(file);
+      taken_[file] = true;
+    }
+    return ready;
+  }
+
+ private:
+  struct Seen {
+    std::uintmax_t size;
+    Clock::time_point since;
+  };
+  static constexpr std::chrono::milliseconds kStable{500};
+
+  std::vector<fs::path> files() const {
+    try {
+      return photo_files(folder_);
+    } catch (const Error&) {
+      return {};  // none yet
+    }
+  }
+
+  fs::path folder_;
+  std::map<fs::path, Seen> seen_;
+  std::map<fs::path, bool> taken_;
+};
+
+/// The map that grows, and what is known of its flight.
+class Growing {
+ public:
+  Growing(const MapOptions& options, const AerialMappingOptions& stage, const CommonOptions& common)
+      : options_(options), stage_(stage), common_(common), pixels_(stage.max_image_px) {
+    if (!options.flight.positions.empty()) positions_ = read_positions(options.flight.positions);
+  }
+
+  void add(const fs::path& file) {
+    ++input_.found;
+    std::vector<FlightPhoto> photo;
+    try {
+      photo.push_back({file, read_photo_metadata(file)});
+      check_image_is_whole(file, read_file(file));
+    } catch (const Error& error) {
+      skip(error.what());
+      return;
+    }
+    apply_positions(positions_, photo);
+    std::vector<PhotoMetadata> metadata{photo.front().metadata};
+    const FlightCameras cameras = cameras_of(metadata, stage_.max_image_px);
+    begin(metadata.front(), cameras.cameras.front());
+    add_to_map(file, metadata.front(), cameras);
+  }
+
+  bool empty() const { return input_.photos.empty(); }
+  int photos() const { return static_cast<int>(input_.photos.size()); }
+  const FlightInput& input() const { return input_; }
+  AerialMap finish(const MappingProgress& progress) { return mapper_->finish(progress); }
+
+ private:
+  void skip(const std::string& why) {
+    input_.warnings.push_back(why + "; skipped");
+    print_note(input_.warnings.back(), common_.quiet);
+  }
+
+  /// The first photo fixes the frame: pixels never shift under who uses the map.
+  void begin(const PhotoMetadata& photo, const CameraPrior& camera) {
+    if (mapper_) return;
+    const double pixel = options_.flight.metres_per_pixel;
+    if (photo.position) input_.frame = MetricFrame::around({*photo.position});
+    if (!input_.frame && !photo.relative_altitude_m && !(pixel > 0.0)) {
+      throw Error(ErrorKind::kUsage, "no position: the map will have no scale", photo.name,
+                  "give --metres-per-pixel or --positions");
+    }
+    if (input_.frame) input_.set.crs = input_.frame->crs();
+    if (pixel > 0.0) input_.set.metres_per_photo_pixel = pixel * photo.width / camera.width;
+    mapper_ = std::make_unique<IncrementalMapper>(input_.set, stage_);
+  }
+
+  void add_to_map(const fs::path& file, const PhotoMetadata& metadata,
+                  const FlightCameras& cameras) {
+    const Stopwatch stopwatch;
+    MappingPhoto photo;
+    photo.name = metadata.name;
+    photo.camera = mapper_->add_camera(cameras.cameras.front());
+    photo.prior = prior_of(metadata, input_.frame ? &*input_.frame : nullptr);
+    photo.load = pixels_.loader(file);
+    const MapUpdate update = mapper_->add(photo);
+    input_.photos.push_back(metadata);
+    input_.set.photos.push_back(std::move(photo));
+    const AerialMap& map = mapper_->current();
+    if (map.ortho.width() > 0) write_orthomosaic(options_.map, map.ortho);
+    write_update(update, map, stopwatch.seconds());
+  }
+
+  void write_update(const MapUpdate& update, const AerialMap& map, double seconds) const {
+    Json tiles = Json::array();
+    for (const MapTile& tile : update.changed_tiles) tiles.push_back({tile.x, tile.y});
+    const Json document{{"version", update.version},
+                        {"final", false},
+                        {"photos", photos()},
+                        {"registered", update.registered},
+                        {"provisional", update.provisional},
+                        {"west", map.ortho.geo.west},
+                        {"north", map.ortho.geo.north},
+                        {"resolution_m", map.ortho.geo.resolution},
+                        {"width_px", map.ortho.width()},
+                        {"height_px", map.ortho.height()},
+                        {"tile_px", kMapTilePx},
+                        {"changed_tiles", tiles}};
+    write_file(update_file(options_.map), document.dump(1) + "\n");
+    print_note(
+        fmt::format("{}: version {}, {}{} tiles changed, {:.1f} s", input_.photos.back().name,
+                    update.version, update.provisional ? "provisional, " : "",
+                    update.changed_tiles.size(), seconds),
+        common_.quiet);
+  }
+
+  const MapOptions& options_;
+  const AerialMappingOptions& stage_;
+  const CommonOptions& common_;
+  PhotoPixels pixels_;
+  std::vector<ListedPosition> positions_;
+  FlightInput input_;
+  std::unique_ptr<IncrementalMapper> mapper_;
+};
+
+/// Takes photos until there are enough, none comes any more, or the user stops.
+void take_photos(const MapOptions& options, Growing& growing) {
+  constexpr std::chrono::milliseconds kLook{200};
+  Arrivals arrivals(options.flight.photos);
+  Clock::time_point last = Clock::now();
+  const std::chrono::duration<double> idle(options.idle_s);
+  while (!interrupted() && Clock::now() - last < idle) {
+    for (const fs::path& file : arrivals.next()) {
+      if (interrupted() || (options.photos > 0 && growing.photos() >= options.photos)) return;
+      growing.add(file);
+      last = Clock::now();
+    }
+    if (options.photos > 0 && growing.photos() >= options.photos) return;
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+}  // namespace
+
+fs::path update_file(const fs::path& map) {
+  return map.parent_path() / (map.stem().string() + ".update.json");
+}
+
+int follow_flight(const MapOptions& options, const Invocation& invocation) {
+  const CommonOptions& common = invocation.common;
+  const ThreadLimit limit(common);
+  const EffectiveOptions effective(options.sources);
+  require_new(options.map, common);
+  if (!fs::is_directory(options.flight.photos)) {
+    throw Error(ErrorKind::kInput, "there is no such folder", options.flight.photos.string());
+  }
+  Growing growing(options, effective.aerial_mapping(), common);
+  print_note("waiting for photos in " + options.flight.photos.string(), common.quiet);
+  take_photos(options, growing);
+  if (growing.empty()) {
+    throw Error(ErrorKind::kInput, "no photo came", options.flight.photos.string(),
+                "give a longer --idle");
+  }
+  // An interrupt ends the flight, and the final map is still made.
+  const AerialMap map = growing.finish({});
+  const int code = write_map(map, growing.input(), options, common);
+  Json document{{"final", true},
+                {"photos", growing.photos()},
+                {"west", map.ortho.geo.west},
+                {"north", map.ortho.geo.north},
+                {"resolution_m", map.ortho.geo.resolution}};
+  write_file(update_file(options.map), document.dump(1) + "\n");
+  return interrupted() ? kInterruptedExitCode : code;
+}
+
+}  // namespace nadir::cli

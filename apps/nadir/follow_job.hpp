@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "map_job.hpp"
+
+namespace nadir::cli {
+
+/// Maps while photos arrive in a folder: a photo is taken once its size has stood still for half a
+/// second; MAP.tif and MAP.update.json are replaced after each. Ends after `photos` photos, when
+/// none has come for `idle_s`, or at an interrupt, with the map of all photos together. Returns
+/// the exit code: that of map_flight, or 130 after an interrupt.
+int follow_flight(const MapOptions& options, const Invocation& invocation);
+
+/// MAP.update.json, which says what the last photo changed.
+std::filesystem::path update_file(const std::filesystem::path& map);
+
+}  // namespace nadir::cli
