@@ -217,6 +217,10 @@ int main(int argc, char** argv) {
       "below, scale from %s\n",
       set.photos.size(), report.registered, report.reprojection_px, report.cameras[0].model.fx,
       options.focal_px, report.ground_below_camera_m, to_string(report.scale_source).c_str());
+  if (report.position_rms_m)
+    std::printf("position residual rms %.2f %.2f %.2f m, time offset %.3f s\n",
+                (*report.position_rms_m)[0], (*report.position_rms_m)[1],
+                (*report.position_rms_m)[2], report.time_offset_s.value_or(0.0));
   for (const std::string& warning : report.warnings) std::printf("warning: %s\n", warning.c_str());
   for (const auto& [stage, seconds] : report.seconds)
     std::printf("  %-12s %7.2f s\n", stage.c_str(), seconds);

@@ -73,6 +73,17 @@ TEST_F(Mapping, FindsTheGroundToATenthOfAMetreAndKeepsTheBiasOfTheGps) {
   EXPECT_NEAR(map.report.ground_below_camera_m, 40.0, 2.0);
 }
 
+TEST_F(Mapping, ReliefDoesNotShrinkTheBlock) {
+  // Hills of 10 m from foot to top, positions that weigh little: any term that likes a flatter
+  // block shows as a smaller one.
+  const Flight flight = fly(std::make_shared<const Terrain>(2, 5.0), {.photos = 3}, {});
+  AerialMappingOptions options = quick_options();
+  options.gps_sigma_m = 1.5;
+  const AerialMap map = map_photos(flight.set, options);
+  EXPECT_EQ(map.report.registered, 9);
+  EXPECT_LT(std::abs(compare(flight, map).scale_error), 0.02);
+}
+
 TEST_F(Mapping, ControlPointsMakeItAbsolute) {
   Flight flight = usual_flight();
   const std::array<Eigen::Vector2d, 4> places{{{-22, -16}, {21, -15}, {20, 17}, {-21, 15}}};

@@ -8,7 +8,9 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "nadir/io/elevation_file.hpp"
+#include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/photo_file.hpp"
 #include "nadir/io/photo_poses.hpp"
 #include "support/data.hpp"
 
@@ -44,9 +46,19 @@ TEST(Mapping, BrightonBeachIsMappedWhole) {
   const Orthomosaic ortho = read_orthomosaic(map);
   EXPECT_EQ(ortho.image.channels(), 3);
   EXPECT_NE(ortho.geo.crs.find("UTM zone 15N"), std::string::npos) << ortho.geo.crs;
-  // The flight lies at 46.8426 N, 91.9946 W.
-  EXPECT_LT(ortho.geo.west, 576663.0);
-  EXPECT_GT(ortho.geo.x_at(ortho.width()), 576663.0);
+  // The middle of the GPS positions, by another way, lies in the middle of the map.
+  std::vector<GeodeticPosition> places;
+  GeodeticPosition middle;
+  const auto files = photo_files(*data);
+  for (const auto& file : files) {
+    places.push_back(read_photo_metadata(file).position.value());
+    middle.latitude_deg += places.back().latitude_deg / static_cast<double>(files.size());
+    middle.longitude_deg += places.back().longitude_deg / static_cast<double>(files.size());
+  }
+  const Point3<frames::Map> point = MetricFrame::around(places).to_map(middle);
+  const PixelCoordinate pixel = ortho.geo.pixel_at(point.x, point.y);
+  EXPECT_NEAR(pixel.column / ortho.width(), 0.5, 0.25);
+  EXPECT_NEAR(pixel.row / ortho.height(), 0.5, 0.25);
   EXPECT_NO_THROW(read_elevation_map(folder / "map.surface.tif"));
   EXPECT_NO_THROW(read_elevation_map(folder / "map.quality.tif"));
   EXPECT_EQ(read_orthomosaic(folder / "map.views.tif").geo, ortho.geo);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "nadir/aerial_mapping/sfm/adjustment_terms.hpp"
 
@@ -19,7 +20,6 @@ constexpr double kIndependent = 200.0;
 constexpr double kHeadingSigma = 10.0 * std::numbers::pi / 180.0;  // compass
 constexpr double kTimeOffsetSigma = 0.5;                           // s
 constexpr double kBiasSigma = 100.0;                               // m: another vertical datum
-constexpr double kGroundSigma = 0.3;                               // m: of the mean ground in [6]
 constexpr double kUnheldFocalSigma = 10.0;                         // of ln f: no prior
 constexpr double kPositionTail = 3.0;                              // sigma
 constexpr int kColumns = 16;
@@ -265,26 +265,44 @@ class Adjustment {
   }
 
   void add_ground() {
+    if (plan_.flat_sigma_m > 0.0)
+      for (auto& point : blocks_.points)
+        problem_.AddResidualBlock(GroundTerm::create(plan_.flat_sigma_m), nullptr, point.data(),
+                                  &blocks_.ground);
+    if (options_.relative_altitude_sigma_m <= 0.0) return;
+    const std::vector<std::optional<std::size_t>> middle = middle_points();
     std::vector<std::size_t> with_altitude;
     for (std::size_t i = 0; i < set_.photos.size(); ++i)
-      if (takes_part(i) && set_.photos[i].prior.relative_altitude_m &&
-          *set_.photos[i].prior.relative_altitude_m > 1.0)
+      if (middle[i] && set_.photos[i].prior.relative_altitude_m.value_or(0.0) > 1.0)
         with_altitude.push_back(i);
-    const bool altitude = options_.relative_altitude_sigma_m > 0.0 && !with_altitude.empty();
-    if ((!altitude && plan_.flat_sigma_m <= 0.0) || blocks_.points.empty()) return;
-    const auto points = static_cast<double>(blocks_.points.size());
-    const double sigma =
-        plan_.flat_sigma_m > 0.0 ? plan_.flat_sigma_m : kGroundSigma * std::sqrt(points);
-    for (auto& point : blocks_.points)
-      problem_.AddResidualBlock(GroundTerm::create(sigma), nullptr, point.data(), &blocks_.ground);
-    if (!altitude) return;
-    // One residual for the block: its square is the mean of the photos'.
+    // One residual for the block: its square is the mean of the photos'. Against points, not
+    // against a mean height that the points would be tied to: that tie rewards a block for having
+    // less relief, which a smaller block has.
     const double each =
         options_.relative_altitude_sigma_m * std::sqrt(static_cast<double>(with_altitude.size()));
     for (const std::size_t i : with_altitude)
       problem_.AddResidualBlock(
           RelativeAltitudeTerm::create(*set_.photos[i].prior.relative_altitude_m, each), nullptr,
-          blocks_.poses[i].data(), &blocks_.ground);
+          blocks_.poses[i].data(), blocks_.points[*middle[i]].data());
+  }
+
+  /// Of each photo the point, among those it sees, of the middle height.
+  std::vector<std::optional<std::size_t>> middle_points() const {
+    std::vector<std::vector<std::pair<double, std::size_t>>> seen(model_.poses.size());
+    for (std::size_t n = 0; n < blocks_.landmarks.size(); ++n) {
+      const Landmark& landmark = model_.landmarks[blocks_.landmarks[n]];
+      for (std::size_t k = 0; k < landmark.track.size(); ++k)
+        if (landmark.used[k] != 0)
+          seen[landmark.track[k].photo].emplace_back(landmark.position.z(), n);
+    }
+    std::vector<std::optional<std::size_t>> middle(seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i].empty()) continue;
+      const auto at = seen[i].begin() + static_cast<std::ptrdiff_t>(seen[i].size() / 2);
+      std::nth_element(seen[i].begin(), at, seen[i].end());
+      middle[i] = at->second;
+    }
+    return middle;
   }
 
   void add_lenses() {

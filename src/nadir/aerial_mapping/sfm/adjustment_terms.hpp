@@ -109,17 +109,17 @@ struct LensTerm {
   }
 };
 
-/// [6] Camera above the mean ground against the height above take-off.
+/// [6] Camera above a point of the ground against the height above take-off.
 struct RelativeAltitudeTerm {
   double altitude, sigma;
 
   template <class T>
-  bool operator()(const T* pose, const T* ground, T* residual) const {
-    residual[0] = (pose[5] - ground[0] - T(altitude)) / T(sigma);
+  bool operator()(const T* pose, const T* point, T* residual) const {
+    residual[0] = (pose[5] - point[2] - T(altitude)) / T(sigma);
     return true;
   }
   static ceres::CostFunction* create(double altitude, double sigma) {
-    return new ceres::AutoDiffCostFunction<RelativeAltitudeTerm, 1, 6, 1>(
+    return new ceres::AutoDiffCostFunction<RelativeAltitudeTerm, 1, 6, 3>(
         new RelativeAltitudeTerm{altitude, sigma});
   }
 };
