@@ -30,16 +30,23 @@ if(Ceres_FOUND AND NOT NADIR_WITH_SFM STREQUAL "OFF")
 endif()
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
-  # cpp-httplib, the viewer's server: Debian ships a library beside the header, others only that.
-  find_path(HTTPLIB_INCLUDE_DIR httplib.h)
-  find_library(HTTPLIB_LIBRARY cpp-httplib)
-  if(NOT HTTPLIB_INCLUDE_DIR)
-    message(FATAL_ERROR "httplib.h not found: install libcpp-httplib-dev or set HTTPLIB_INCLUDE_DIR")
+  # cpp-httplib, the viewer's server. Debian compiles a part of it into a library, with features that
+  # change the layout of its classes: its .pc file names them, and the header must see the same.
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(HTTPLIB QUIET IMPORTED_TARGET cpp-httplib)
   endif()
   add_library(nadir_httplib INTERFACE IMPORTED)
-  target_include_directories(nadir_httplib INTERFACE ${HTTPLIB_INCLUDE_DIR})
-  target_link_libraries(nadir_httplib INTERFACE Threads::Threads
-                        $<$<BOOL:${HTTPLIB_LIBRARY}>:${HTTPLIB_LIBRARY}>)
+  if(HTTPLIB_FOUND)
+    target_link_libraries(nadir_httplib INTERFACE PkgConfig::HTTPLIB Threads::Threads)
+  else()  # as its authors ship it: a header and no library
+    find_path(HTTPLIB_INCLUDE_DIR httplib.h)
+    if(NOT HTTPLIB_INCLUDE_DIR)
+      message(FATAL_ERROR "httplib.h not found: install libcpp-httplib-dev or set HTTPLIB_INCLUDE_DIR")
+    endif()
+    target_include_directories(nadir_httplib INTERFACE ${HTTPLIB_INCLUDE_DIR})
+    target_link_libraries(nadir_httplib INTERFACE Threads::Threads)
+  endif()
 endif()
 if(NADIR_BUILD_APPS OR NADIR_BUILD_TESTS)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)  # tools/*.py
