@@ -9,12 +9,15 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "nadir/core/random.hpp"
+#include "nadir/io/metric_frame.hpp"
+#include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -54,6 +57,29 @@ void write_site(const std::filesystem::path& folder) {
   for (int i = 0; i < kFrames; ++i)
     writer.write_local_map(i + 1, Stamp{i * kSecond}, cut_from(map, i));
   writer.finish();
+}
+
+TEST(RunView, TellsWhereOnTheEarthTheCornersAre) {
+  const test::TemporaryFolder folder;
+  write_site(folder.path());
+  Orthomosaic map = blocks(600, 300);
+  // On the central meridian of UTM zone 32, x = 500 km, longitude is 9 degrees.
+  map.geo = {500000.0, 5316000.0, 0.1, MetricFrame::around({{48.0, 9.0}}).crs()};
+  write_orthomosaic(folder / "utm.tif", map);
+  const RunView run({folder.path(), folder / "utm.tif"}, LocalizerOptions{},
+                    folder / "particles.bin", true);
+  const Json corners = run.document()["map"]["corners"];
+  ASSERT_EQ(corners.size(), 4U);
+  EXPECT_NEAR(corners[0][0].get<double>(), 9.0, 1e-9);
+  EXPECT_NEAR(corners[2][0].get<double>(), 9.0, 1e-9);
+  // 60 m of the map to the east, 30 m to the south; the scale of UTM is 0.9996.
+  const double radius = 6378137.0 * 0.9996 * std::cos(48.0 / 57.29578);
+  EXPECT_NEAR(corners[1][0].get<double>(), 9.0 + 60.0 / radius * 57.29578, 2e-5);
+  EXPECT_NEAR(corners[0][1].get<double>() - corners[2][1].get<double>(), 30.0 / 111170.0, 1e-6);
+
+  const RunView local({folder.path(), folder / "map.tif"}, LocalizerOptions{},
+                      folder / "particles.bin", true);
+  EXPECT_TRUE(local.document()["map"]["corners"].is_null());
 }
 
 /// A site of three frames, the view of its live run, and a server.

@@ -61,6 +61,15 @@ export function nearestFrame(stamps: ArrayLike<number>, stamp: number): number {
   return stamp - stamps[before]! < stamps[low]! - stamp ? before : low;
 }
 
+/** Longitude and latitude at a share of the map's width (from the west) and height (from the north). */
+export function onEarth(corners: [number, number][], right: number, down: number): [number, number] {
+  const between = (axis: 0 | 1): number => {
+    const [nw, ne, sw, se] = corners.map((corner) => corner[axis]) as [number, number, number, number];
+    return (1 - down) * ((1 - right) * nw + right * ne) + down * ((1 - right) * sw + right * se);
+  };
+  return [between(0), between(1)];
+}
+
 /** A length for people: "12 mm", "3.42 m", "1.20 km". */
 export function lengthText(metres: number): string {
   if (metres < 0.1) return `${(1000 * metres).toFixed(0)} mm`;

@@ -9,7 +9,7 @@ import TileLayer from "ol/layer/Tile";
 import Projection from "ol/proj/Projection";
 import XYZ from "ol/source/XYZ";
 import TileGrid from "ol/tilegrid/TileGrid";
-import { lengthText } from "./geometry";
+import { lengthText, onEarth } from "./geometry";
 import { Overlay } from "./overlay";
 import type { Pictures } from "./pictures";
 import type { Store, View as MapView } from "./state";
@@ -124,10 +124,17 @@ export class MapPane {
   }
 
   private tell([x, y]: [number, number]): void {
-    const { west, north, resolution } = this.store.state.run.map;
+    const { west, north, width, height, resolution, corners } = this.store.state.run.map;
     const column = Math.floor((x - west) / resolution);
     const row = Math.floor((north - y) / resolution);
-    this.readout.textContent = `x ${x.toFixed(2)}  y ${y.toFixed(2)} m   pixel ${column}, ${row}`;
+    let text = `x ${x.toFixed(2)}  y ${y.toFixed(2)} m   pixel ${column}, ${row}`;
+    if (corners) {
+      const right = (x - west) / (width * resolution);
+      const down = (north - y) / (height * resolution);
+      const [longitude, latitude] = onEarth(corners, right, down);
+      text += `   ${latitude.toFixed(7)}, ${longitude.toFixed(7)}`;
+    }
+    this.readout.textContent = text;
   }
 
   private toolInteraction(): PointerInteraction {

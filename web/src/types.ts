@@ -30,7 +30,8 @@ export interface MapInfo {
   resolution: number;
   levels: number;
   tile_size: number;
-  has_crs: boolean;
+  /** Longitude and latitude of the corners NW, NE, SW, SE; null where the map is not on the Earth. */
+  corners: [number, number][] | null;
 }
 
 export interface Run {

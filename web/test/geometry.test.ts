@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { decodeParticles } from "../src/api";
 import { viridis, weightClass } from "../src/colour";
-import { ellipseOf, errorOf, inMap, lengthText, nearestFrame, wrapAngle } from "../src/geometry";
+import { ellipseOf, errorOf, inMap, lengthText, nearestFrame, onEarth, wrapAngle } from "../src/geometry";
 import { defaultLayers, fromHash, Store, toHash } from "../src/state";
 import type { Frame, Run } from "../src/types";
 
@@ -21,6 +21,15 @@ test("angles are wrapped to (-pi, pi]", () => {
     expect(Math.sin(wrapped)).toBeCloseTo(Math.sin(angle), 9);
   }
   expect(wrapAngle(-Math.PI)).toBeCloseTo(Math.PI, 12);
+});
+
+test("longitude and latitude are interpolated between the corners", () => {
+  const corners: [number, number][] = [[9, 48.1], [9.2, 48.1], [9, 48], [9.2, 48]];
+  expect(onEarth(corners, 0, 0)).toEqual([9, 48.1]);
+  expect(onEarth(corners, 1, 1)).toEqual([9.2, 48]);
+  const [longitude, latitude] = onEarth(corners, 0.25, 0.5);
+  expect(longitude).toBeCloseTo(9.05, 9);
+  expect(latitude).toBeCloseTo(48.05, 9);
 });
 
 test("the ellipse has the covariance's axes", () => {

@@ -12,6 +12,7 @@
 #include "../site.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 
 namespace nadir::cli {
@@ -43,6 +44,28 @@ cv::Mat with_alpha(const Orthomosaic& ortho) {
     }
   }
   return image;
+}
+
+/// Longitude and latitude (degrees) of the map's corners NW, NE, SW, SE; null where the map says no
+/// reference system, or one that is not on the Earth. Between them a page interpolates: over a
+/// kilometre of UTM that is right to 2 cm.
+Json corners_on_earth(const MapTiles& tiles) {
+  const GeoReference& geo = tiles.geo();
+  if (geo.crs.empty()) return nullptr;
+  const double east = geo.west + tiles.width() * geo.resolution;
+  const double south = geo.north - tiles.height() * geo.resolution;
+  try {
+    const GeodeticReader reader(geo.crs, "map");
+    Json corners = Json::array();
+    for (const auto& [x, y] : {std::pair{geo.west, geo.north}, std::pair{east, geo.north},
+                               std::pair{geo.west, south}, std::pair{east, south}}) {
+      const GeodeticPosition corner = reader.read(x, y, 0.0, "map");
+      corners.push_back({corner.longitude_deg, corner.latitude_deg});
+    }
+    return corners;
+  } catch (const Error&) {  // a local system: metres alone are shown
+    return nullptr;
+  }
 }
 
 Json read_manifest(const fs::path& run) {
@@ -207,7 +230,7 @@ Json RunView::document() const {
                      {"resolution", geo.resolution},
                      {"levels", tiles_->levels()},
                      {"tile_size", MapTiles::kTileSize},
-                     {"has_crs", !geo.crs.empty()}};
+                     {"corners", corners_on_earth(*tiles_)}};
   const std::scoped_lock lock(mutex_);
   document["live"] = live_;
   document["odometry"] = odometry_track();
