@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
@@ -48,9 +48,9 @@ void run(Words arguments, const fs::path& log) {
                                    pointers(arguments).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) {
-    throw Error(ErrorKind::kUsage,
-                std::string("colmap cannot be started: ") + std::strerror(failure), "--sfm colmap",
-                "install COLMAP, or leave --sfm away: nadir finds the poses itself");
+    throw Error(
+        ErrorKind::kUsage, "colmap cannot be started: " + std::generic_category().message(failure),
+        "--sfm colmap", "install COLMAP, or leave --sfm away: nadir finds the poses itself");
   }
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {

@@ -15,7 +15,7 @@ namespace {
 using Place = std::array<double, 3>;
 
 struct Line {
-  Place place;
+  Place place{};
   std::string name;
   ListedControlPoint::Mark mark;
 };

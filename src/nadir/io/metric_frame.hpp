@@ -55,6 +55,8 @@ class GeodeticReader {
   GeodeticReader(const std::string& reference_system, const std::string& where);
   GeodeticReader(const GeodeticReader&) = delete;
   GeodeticReader& operator=(const GeodeticReader&) = delete;
+  GeodeticReader(GeodeticReader&&) = delete;
+  GeodeticReader& operator=(GeodeticReader&&) = delete;
   ~GeodeticReader();
 
   GeodeticPosition read(double x, double y, double z, const std::string& where) const;

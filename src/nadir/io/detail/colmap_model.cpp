@@ -16,11 +16,11 @@ CameraModel camera_of(const TextRow& row) {
   std::vector<double> p;
   for (std::size_t i = 4; i < f.size(); ++i)
     p.push_back(number_in_file(f[i], "parameter", row.where));
-  const std::map<std::string, std::size_t> kParameters{{"SIMPLE_PINHOLE", 3}, {"PINHOLE", 4},
-                                                       {"SIMPLE_RADIAL", 4},  {"RADIAL", 5},
-                                                       {"OPENCV", 8},         {"FULL_OPENCV", 12}};
-  const auto known = kParameters.find(f[1]);
-  if (known == kParameters.end() || p.size() != known->second) {
+  const std::map<std::string, std::size_t> parameters{{"SIMPLE_PINHOLE", 3}, {"PINHOLE", 4},
+                                                      {"SIMPLE_RADIAL", 4},  {"RADIAL", 5},
+                                                      {"OPENCV", 8},         {"FULL_OPENCV", 12}};
+  const auto known = parameters.find(f[1]);
+  if (known == parameters.end() || p.size() != known->second) {
     throw Error(ErrorKind::kInput, "the camera model " + f[1] + " cannot be expressed", row.where,
                 "use SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL or OPENCV, or undistort");
   }
