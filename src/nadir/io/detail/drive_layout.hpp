@@ -30,7 +30,7 @@ OpenedLayout open_kitti_stereo(const std::filesystem::path& folder, const Mounti
 OpenedLayout open_kitti_lidar(const std::filesystem::path& folder, const Mounting& mounting);
 OpenedLayout open_kitti_raw(const std::filesystem::path& folder, const Mounting& mounting,
                             DriveSensor sensor);
-OpenedLayout open_euroc(const std::filesystem::path& folder, const Mounting& mounting);
+OpenedLayout open_euroc(const std::filesystem::path& given, const Mounting& mounting);
 OpenedLayout open_stereo_folder(const std::filesystem::path& folder, const Mounting& mounting);
 OpenedLayout open_rosbag(const std::filesystem::path& file, const Mounting& mounting,
                          const DriveReadOptions& options);
