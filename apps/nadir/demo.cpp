@@ -47,7 +47,7 @@ SeedRun run_way(const Way& way, const Orthomosaic& map, const Sequence& sequence
                      seed, sequence.odometry.has_value()},
                     [&](int done) { progress.update(done); });
   stop_if_interrupted();
-  write_run(folder, run->result);
+  write_run(folder, run->result, run->truth);
   draw_run(folder, {map, run->result, run->truth, &run->judgement->evaluation, way.name});
   Manifest manifest = manifest_of(invocation, 1, {});
   manifest.stages.push_back({"localize", run->result.update_s()});

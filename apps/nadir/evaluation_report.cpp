@@ -51,6 +51,12 @@ std::string convergence(const Evaluation& e) {
 
 }  // namespace
 
+Judgement judged(const Trajectory& estimated, const std::vector<StampedCovariance>& covariances,
+                 const Trajectory& truth) {
+  return {evaluate(estimated, truth, {}), Alignment::kNone,
+          consistency(estimated, covariances, truth, {})};
+}
+
 Json to_json(const Judgement& judgement) {
   const Evaluation& e = judgement.evaluation;
   Json document = {{"ape_trans_m", to_json(e.ape_translation_m, 1.0)},

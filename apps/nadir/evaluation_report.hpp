@@ -19,6 +19,10 @@ struct Judgement {
   std::optional<Consistency> consistency;
 };
 
+/// Of a run as it is: not aligned, over all its frames.
+Judgement judged(const Trajectory& estimated, const std::vector<StampedCovariance>& covariances,
+                 const Trajectory& truth);
+
 Json to_json(const Judgement& judgement);
 Json to_json(const SeedSummary& summary);
 

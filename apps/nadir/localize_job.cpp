@@ -17,6 +17,7 @@
 #include "progress.hpp"
 #include "run_figures.hpp"
 #include "run_files.hpp"
+#include "run_report.hpp"
 #include "run_tracks.hpp"
 #include "site.hpp"
 #include "stopwatch.hpp"
@@ -114,7 +115,7 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
-    write_run(run_folder, run->result);
+    write_run(run_folder, run->result, run->truth);
     runs.push_back(std::move(*run));
   }
   return runs;
@@ -147,7 +148,7 @@ void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
     std::string text = options_.seeds == 1 ? to_text(runs.front())
                        : summary           ? to_table(*summary)
                                            : std::to_string(runs.size()) + " seeds done\n";
-    print(text + "written to " + options_.run.string() + "\n");
+    print(text + "open " + (options_.run / "report.html").string() + "\n");
     return;
   }
   Json document = to_json(runs.front());
@@ -159,6 +160,7 @@ void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
   document["odometry"] = use_odometry_file_ ? "file" : "maps";
   document["output"] = options_.run.string();
   document["figures"] = figures_;
+  document["report"] = (options_.run / "report.html").string();
   print(document);
 }
 
@@ -178,6 +180,7 @@ int LocalizeJob::run() {
   if (runs.empty()) throw Interrupted{};
   draw(map, runs.front(), output.staging());
   write_summary_files(runs, output.staging(), stopwatch.seconds());
+  write_run_report(output.staging());
   output.commit();
   report(runs);
   if (live_ && !interrupted()) {

@@ -11,20 +11,21 @@
 namespace nadir::cli {
 namespace {
 
-constexpr std::size_t kSwarmCount = 6;
+constexpr std::size_t kInstantCount = 6;
 
 /// Whether frame `index` of `count` is one of the instants, first and last among them, at which the
-/// swarm is kept.
-bool is_swarm_instant(std::size_t index, std::size_t count) {
-  if (count <= kSwarmCount) return true;
-  for (std::size_t k = 0; k < kSwarmCount; ++k) {
-    if (index == k * (count - 1) / (kSwarmCount - 1)) return true;
+/// swarm and the local map are kept.
+bool is_figure_instant(std::size_t index, std::size_t count) {
+  if (count <= kInstantCount) return true;
+  for (std::size_t k = 0; k < kInstantCount; ++k) {
+    if (index == k * (count - 1) / (kInstantCount - 1)) return true;
   }
   return false;
 }
 
-FrameRecord run_frame(Localizer& localizer, const RunPlan& plan,
-                      const Sequence::LocalMap& local_map) {
+/// The second is the local map that was used.
+std::pair<FrameRecord, Orthomosaic> run_frame(Localizer& localizer, const RunPlan& plan,
+                                              const Sequence::LocalMap& local_map) {
   FrameRecord record;
   record.number = local_map.number;
   const Stopwatch decoding;
@@ -34,7 +35,19 @@ FrameRecord run_frame(Localizer& localizer, const RunPlan& plan,
   const Stopwatch updating;
   record.estimate = localizer.update(frame);
   record.update_s = updating.seconds();
-  return record;
+  return {record, std::move(frame.local)};
+}
+
+void keep_for_figures(RunResult& result, const RunPlan& plan, const ParticleSet& particles,
+                      Orthomosaic local) {
+  const FrameRecord& record = result.records.back();
+  const Pose2& pose = record.estimate.map_from_robot;
+  result.local_maps.push_back({pose, local.geo, local.width(), local.height()});
+  if (!is_figure_instant(result.records.size() - 1, plan.frames.size())) return;
+  const std::string label = "frame " + std::to_string(record.number);
+  result.swarms.push_back({label, particles.poses, particles.weights, pose,
+                           truth_at(plan.sequence, record.estimate.stamp)});
+  result.comparisons.push_back({label, std::move(local), pose});
 }
 
 double sum_over(const std::vector<FrameRecord>& records, double FrameRecord::*seconds) {
@@ -79,16 +92,12 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
     }
     const Sequence::LocalMap& local_map = plan.frames[i];
     try {
-      result.records.push_back(run_frame(localizer, plan, local_map));
+      auto [record, local] = run_frame(localizer, plan, local_map);
+      result.records.push_back(record);
+      keep_for_figures(result, plan, localizer.particles(), std::move(local));
     } catch (const Interrupted&) {  // while the local map was being made
       result.interrupted = true;
       break;
-    }
-    if (is_swarm_instant(i, plan.frames.size())) {
-      const ParticleSet& particles = localizer.particles();
-      result.swarms.push_back({"frame " + std::to_string(local_map.number), particles.poses,
-                               particles.weights, result.records.back().estimate.map_from_robot,
-                               truth_at(plan.sequence, local_map.stamp)});
     }
     for (RunObserver* observer : plan.observers) {
       observer->frame_done(result.records.back(), localizer.particles());

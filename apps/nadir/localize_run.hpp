@@ -53,9 +53,12 @@ struct RunPlan {
 
 struct RunResult {
   std::vector<FrameRecord> records;
-  std::vector<Swarm> swarms;  ///< at instants spread over the run, for the figure
-  double prepare_s = 0.0;     ///< the localizer's preparation of the map
-  bool interrupted = false;   ///< the records end early
+  // For the figures, the first two at instants spread over the run.
+  std::vector<Swarm> swarms;
+  std::vector<Comparison> comparisons;
+  std::vector<Footprint> local_maps;  ///< of every frame, at its estimate
+  double prepare_s = 0.0;             ///< the localizer's preparation of the map
+  bool interrupted = false;           ///< the records end early
 
   Trajectory trajectory() const;
   int answered() const;  ///< frames whose local map was compared

@@ -9,11 +9,12 @@
 namespace {
 
 constexpr std::array kVerbs{
-    nadir::cli::add_simulate,   nadir::cli::add_map,    nadir::cli::add_convert,
-    nadir::cli::add_ground,     nadir::cli::add_info,   nadir::cli::add_match,
-    nadir::cli::add_localize,   nadir::cli::add_run,    nadir::cli::add_eval,
-    nadir::cli::add_demo,       nadir::cli::add_doctor, nadir::cli::add_config,
-    nadir::cli::add_completion, nadir::cli::add_view,   nadir::cli::add_version,
+    nadir::cli::add_simulate, nadir::cli::add_map,    nadir::cli::add_convert,
+    nadir::cli::add_ground,   nadir::cli::add_info,   nadir::cli::add_match,
+    nadir::cli::add_localize, nadir::cli::add_run,    nadir::cli::add_eval,
+    nadir::cli::add_demo,     nadir::cli::add_doctor, nadir::cli::add_config,
+    nadir::cli::add_view,     nadir::cli::add_report, nadir::cli::add_completion,
+    nadir::cli::add_version,
 };
 
 }  // namespace

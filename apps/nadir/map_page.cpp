@@ -5,126 +5,107 @@
 #include <array>
 #include <cmath>
 
+#include "html_page.hpp"
+#include "libraries.hpp"
 #include "map_files.hpp"
 #include "map_pictures.hpp"
+#include "nadir/report/charts.hpp"
+#include "nadir/report/markup.hpp"
 
 namespace nadir::cli {
 namespace {
 
-constexpr const char* kStyle =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;"
-    "color:#222;background:#fff}h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}"
-    "table{border-collapse:collapse;font-size:.9em}td,th{padding:.2em .7em;text-align:right;"
-    "border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}"
-    "figure{margin:1em 0}img,svg{max-width:100%;height:auto;border:1px solid #ccc}"
-    "figcaption{font-size:.9em;color:#555}.warn{background:#fff6e0;border-left:4px solid #d9962b;"
-    "padding:.4em .8em;margin:.4em 0}";
+using html::Markup;
+using report::escaped;
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-std::string figure(const std::string& content, const std::string& caption) {
-  return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
-}
-
-std::string image(const std::string& data_uri, const std::string& alternative) {
-  return "<img alt=\"" + alternative + "\" src=\"" + data_uri + "\">";
-}
-
-std::string row(const std::string& name, const std::string& value) {
-  return "<tr><td>" + name + "</td><td>" + value + "</td></tr>\n";
-}
-
-std::string facts(const AerialMap& map, const FlightInput& input) {
+Markup facts(const AerialMap& map, const FlightInput& input) {
   const AdjustmentReport& r = map.report;
-  std::string text = "<table>\n";
-  text += row("Photos joined", fmt::format("{} of {}", r.registered, input.set.photos.size()));
-  text += row("Map", fmt::format("{} × {} px of {} m", map.ortho.width(), map.ortho.height(),
-                                 map.ortho.geo.resolution));
-  text += row("Frame", input.frame ? escaped(input.frame->name()) : "local metres");
-  text += row("Reprojection", fmt::format("{:.2f} px", r.reprojection_px));
+  std::vector<html::Row> rows{
+      {"Photos joined", fmt::format("{} of {}", r.registered, input.set.photos.size())},
+      {"Map", fmt::format("{} × {} px of {} m", map.ortho.width(), map.ortho.height(),
+                          map.ortho.geo.resolution)},
+      {"Frame", input.frame ? input.frame->name() : "local metres"},
+      {"Reprojection", fmt::format("{:.2f} px", r.reprojection_px)}};
   if (r.position_residual_m) {
-    text += row("Positions differ by", fmt::format("{:.2f} m", *r.position_residual_m));
+    rows.push_back({"Positions differ by", fmt::format("{:.2f} m", *r.position_residual_m)});
   }
-  text += row("Ground below the photos", fmt::format("{:.1f} m", r.ground_below_camera_m));
-  text += row("A photo's pixel on the ground", fmt::format("{:.3f} m", r.photo_pixel_m));
-  text += row("Scale from", escaped(to_string(r.scale_source)));
-  text += row("Scale uncertain by", fmt::format("{:.2f} %", 100.0 * r.scale_sigma));
-  text += row("Heading uncertain by", fmt::format("{:.2f}°", r.heading_sigma_deg));
+  rows.push_back({"Ground below the photos", fmt::format("{:.1f} m", r.ground_below_camera_m)});
+  rows.push_back({"A photo's pixel on the ground", fmt::format("{:.3f} m", r.photo_pixel_m)});
+  rows.push_back({"Scale from", to_string(r.scale_source)});
+  rows.push_back({"Scale uncertain by", fmt::format("{:.2f} %", 100.0 * r.scale_sigma)});
+  rows.push_back({"Heading uncertain by", fmt::format("{:.2f}°", r.heading_sigma_deg)});
   for (const CameraReport& camera : r.cameras) {
-    text += row(escaped(camera.name),
-                fmt::format("focal {:.1f} px (before: {:.1f}, {}), ±{:.2f} %", camera.model.fx,
-                            camera.prior_focal_px, escaped(camera.focal_source),
-                            100.0 * camera.focal_sigma));
+    rows.push_back({camera.name, fmt::format("focal {:.1f} px (before: {:.1f}, {}), ±{:.2f} %",
+                                             camera.model.fx, camera.prior_focal_px,
+                                             camera.focal_source, 100.0 * camera.focal_sigma)});
   }
-  return text + "</table>\n";
+  return html::table({}, rows, html::Columns::kTexts);
 }
 
-std::string warnings(const AerialMap& map, const FlightInput& input) {
-  std::string text;
+/// In words: how much of the flight is in the map, and how well it fits.
+Markup headline(const AerialMap& map, const FlightInput& input) {
+  const AdjustmentReport& r = map.report;
+  const std::size_t photos = input.set.photos.size();
+  const bool whole = r.registered == static_cast<int>(photos);
+  return html::headline(
+      fmt::format("{} of {} photos are in the map; what they see agrees to {:.2f} px.",
+                  r.registered, photos, r.reprojection_px),
+      whole && input.warnings.empty() && r.warnings.empty());
+}
+
+Markup warnings(const AerialMap& map, const FlightInput& input) {
+  Markup markup;
   for (const auto* list : {&input.warnings, &map.report.warnings}) {
-    for (const std::string& warning : *list) {
-      text += "<p class=\"warn\">" + escaped(warning) + "</p>\n";
-    }
+    for (const std::string& warning : *list) markup += html::warning(warning);
   }
-  return text;
+  return markup;
 }
 
-std::string photo_table(const AerialMap& map) {
-  std::string text =
-      "<table><tr><th>photo</th><th>points</th><th>reprojection px</th><th>above ground m</th>"
-      "<th>off nadir °</th><th>gain</th><th>position residual m (x, y, z)</th></tr>\n";
-  for (const PhotoReport& photo : map.report.photos) {
-    if (!photo.registered) {
-      text += "<tr><td>" + escaped(photo.name) + "</td><td colspan=\"6\">not joined</td></tr>\n";
-      continue;
-    }
-    const auto residual = photo.position_residual_m;
-    text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.2f}</td>"
-        "<td>{}</td></tr>\n",
-        escaped(photo.name), photo.observations, photo.reprojection_px, photo.ground_below_camera_m,
-        photo.off_nadir_deg, photo.gain,
-        residual
-            ? fmt::format("{:.2f}, {:.2f}, {:.2f}", (*residual)[0], (*residual)[1], (*residual)[2])
-            : "none");
-  }
-  return text + "</table>\n";
+html::Row photo_row(const PhotoReport& photo) {
+  if (!photo.registered) return {photo.name, "not joined", "", "", "", "", ""};
+  const auto residual = photo.position_residual_m;
+  return {photo.name,
+          std::to_string(photo.observations),
+          fmt::format("{:.2f}", photo.reprojection_px),
+          fmt::format("{:.1f}", photo.ground_below_camera_m),
+          fmt::format("{:.1f}", photo.off_nadir_deg),
+          fmt::format("{:.2f}", photo.gain),
+          residual ? fmt::format("{:.2f}, {:.2f}, {:.2f}", (*residual)[0], (*residual)[1],
+                                 (*residual)[2])
+                   : "none"};
 }
 
-std::string control_table(const AerialMap& map) {
+Markup photo_table(const AerialMap& map) {
+  std::vector<html::Row> rows;
+  for (const PhotoReport& photo : map.report.photos) rows.push_back(photo_row(photo));
+  return html::table({"photo", "points", "reprojection px", "above ground m", "off nadir °", "gain",
+                      "position residual m (x, y, z)"},
+                     rows, html::Columns::kNumbers);
+}
+
+Markup control_table(const AerialMap& map) {
   if (map.report.control_points.empty()) return {};
-  std::string text =
-      "<h2>Control points</h2><table><tr><th>point</th><th>marks</th><th>residual m (x, y, z)</th>"
-      "<th>reprojection px</th><th></th></tr>\n";
+  std::vector<html::Row> rows;
   for (const ControlPointReport& point : map.report.control_points) {
-    text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{:.3f}, {:.3f}, {:.3f}</td><td>{:.2f}</td><td>{}</td></tr>"
-        "\n",
-        escaped(point.name), point.marks, point.residual_m[0], point.residual_m[1],
-        point.residual_m[2], point.reprojection_px, point.outlier ? "does not fit" : "");
+    rows.push_back({point.name, std::to_string(point.marks),
+                    fmt::format("{:.3f}, {:.3f}, {:.3f}", point.residual_m[0], point.residual_m[1],
+                                point.residual_m[2]),
+                    fmt::format("{:.2f}", point.reprojection_px),
+                    point.outlier ? "does not fit" : ""});
   }
-  return text + "</table>\n";
+  return html::heading("Control points") +
+         html::table({"point", "marks", "residual m (x, y, z)", "reprojection px", ""}, rows,
+                     html::Columns::kNumbers);
+}
+
+Markup run_times(const AerialMap& map) {
+  if (map.report.seconds.empty()) return {};
+  std::vector<Sample> stages;
+  for (const auto& [stage, seconds] : map.report.seconds) stages.push_back({stage, {seconds}});
+  return html::heading("Run time") +
+         html::side_by_side(
+             {html::figure(html::inline_svg(svg_rows(stages, "time, s", "Run time by stage")),
+                           "Seconds that each stage of the mapping took.")});
 }
 
 /// Drawings over the picture of the map, in its pixels.
@@ -212,31 +193,30 @@ std::string residuals(const AerialMap& map, const Overlay& overlay) {
 }  // namespace
 
 std::string report_page(const AerialMap& map, const FlightInput& input, const std::string& title) {
-  std::string page = "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-                     escaped(title) + "</title><style>" + kStyle + "</style></head><body><h1>" +
-                     escaped(title) + "</h1>\n";
-  page += facts(map, input) + warnings(map, input);
+  Markup markup = html::title(title, fmt::format("nadir {}, map of a flight", program_version()));
+  markup += headline(map, input) + warnings(map, input) + facts(map, input);
   if (map.ortho.width() > 0) {
     const Picture colours = colour_picture(map);
     const Overlay overlay(map, colours);
-    page += "<h2>Map</h2>" + figure(image(colours.uri, "orthomosaic"), "The orthomosaic.");
-    page += "<h2>Photos</h2>" + figure(overlay.svg(colours.uri, footprints(map, overlay)),
-                                       "Footprints on the ground; red: cameras.");
-    page += "<h2>Positions</h2>" +
-            figure(overlay.svg(colours.uri, residuals(map, overlay)),
-                   fmt::format("Red: adjusted minus given position, {:.0f} times as long, from the "
-                               "adjusted one.",
-                               kResidualGain));
-    page += "<h2>Seams</h2>" + figure(image(seam_picture(map).uri, "seams"),
-                                      "Which photo gives each pixel its colour.");
-    page +=
-        "<h2>Views</h2>" + figure(image(view_picture(map).uri, "views"),
-                                  "How many photos see each pixel: dark 1, bright 10 and more.");
-    page += "<h2>Heights</h2>" + figure(image(surface_picture(map).uri, "heights"),
-                                        "The surface, lit from the north-west.");
+    markup += html::heading("Map") +
+              html::figure(html::image(colours.uri, "orthomosaic"), "The orthomosaic.");
+    markup += html::heading("Photos and surface");
+    markup += html::side_by_side(
+        {html::figure(overlay.svg(colours.uri, footprints(map, overlay)),
+                      "Footprints on the ground; red: cameras."),
+         html::figure(overlay.svg(colours.uri, residuals(map, overlay)),
+                      fmt::format("Red: adjusted minus given position, {:.0f} times as long, from "
+                                  "the adjusted one.",
+                                  kResidualGain)),
+         html::figure(html::image(seam_picture(map).uri, "seams"),
+                      "Seams: which photo gives each pixel its colour."),
+         html::figure(html::image(view_picture(map).uri, "views"),
+                      "How many photos see each pixel: dark 1, bright 10 and more."),
+         html::figure(html::image(surface_picture(map).uri, "heights"),
+                      "The surface, lit from the north-west.")});
   }
-  page += control_table(map) + "<h2>All photos</h2>" + photo_table(map);
-  return page + "</body></html>\n";
+  markup += run_times(map) + control_table(map) + html::heading("All photos") + photo_table(map);
+  return html::page(title + " - nadir", markup);
 }
 
 }  // namespace nadir::cli

@@ -8,32 +8,21 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "html_page.hpp"
+
 namespace nadir::cli {
 namespace {
 
 constexpr int kLargest = 1000;  // pixels of a side
 const cv::Vec3b kNothing(255, 255, 255);
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < count ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[group >> (18U - 6U * static_cast<unsigned>(k)) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
 /// Blue first, as OpenCV has it.
 Picture encoded(const cv::Mat& image, const std::string& format) {
   std::vector<std::uint8_t> bytes;
   cv::imencode("." + format, image, bytes);
-  return {"data:image/" + format + ";base64," + base64(bytes), image.cols, image.rows};
+  return {html::data_uri("image/" + format,
+                         {reinterpret_cast<const char*>(bytes.data()), bytes.size()}),
+          image.cols, image.rows};
 }
 
 cv::Mat reduced(const cv::Mat& image, int interpolation) {

@@ -40,15 +40,27 @@ Figure errors(const RunFigures& figures) {
                      figures.title);
 }
 
+/// First, middle and last: more rows than a screen has are not looked at.
+std::vector<Comparison> comparisons_of(const RunResult& result) {
+  const std::vector<Comparison>& all = result.comparisons;
+  if (all.size() <= 3) return all;
+  return {all.front(), all[all.size() / 2], all.back()};
+}
+
 }  // namespace
 
 std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures) {
   std::vector<Track> tracks{{"estimate", figures.result.trajectory()}};
   if (!figures.truth.empty()) tracks.push_back({"truth", figures.truth});
-  std::vector<std::string> names{"trajectory.png", "swarm.png", "diagnostics.png"};
+  std::vector<std::string> names{"trajectory.png", "swarm.png", "comparison.png", "coverage.png",
+                                 "diagnostics.png"};
   write_png(folder / names[0], draw_trajectories(figures.map, tracks, figures.title));
   write_png(folder / names[1], draw_swarms(figures.map, figures.result.swarms, figures.title));
-  write_png(folder / names[2], diagnostics(figures));
+  write_png(folder / names[2],
+            draw_comparisons(figures.map, comparisons_of(figures.result), figures.title));
+  write_png(folder / names[3],
+            draw_coverage(figures.map, figures.result.local_maps, figures.title));
+  write_png(folder / names[4], diagnostics(figures));
   if (figures.evaluation != nullptr) {
     names.emplace_back("error.png");
     write_png(folder / names.back(), errors(figures));

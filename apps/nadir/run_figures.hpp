@@ -18,8 +18,8 @@ struct RunFigures {
   std::string title;
 };
 
-/// Draws trajectory.png, swarm.png, diagnostics.png and, where there is a truth, error.png into the
-/// folder; returns their names.
+/// Draws trajectory.png, swarm.png, comparison.png, coverage.png, diagnostics.png and, where there
+/// is a truth, error.png into the folder; returns their names.
 std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures);
 
 }  // namespace nadir::cli

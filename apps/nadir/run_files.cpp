@@ -86,12 +86,14 @@ std::vector<StampedCovariance> covariances_of(const RunResult& result) {
   return covariances;
 }
 
-void write_run(const std::filesystem::path& folder, const RunResult& result) {
+void write_run(const std::filesystem::path& folder, const RunResult& result,
+               const Trajectory& truth) {
   create_folder(folder);
   write_tum(folder / "trajectory.tum", result.trajectory());
   write_file(folder / "covariance.csv", covariance_csv(covariances_of(result)));
   write_file(folder / "frames.csv", frames_csv(result.records));
   write_file(folder / "timing.csv", timing_csv(result.records));
+  if (!truth.empty()) write_tum(folder / "truth.tum", truth);
 }
 
 std::vector<StampedCovariance> read_covariances(const std::filesystem::path& path) {

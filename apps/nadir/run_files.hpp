@@ -10,8 +10,9 @@
 namespace nadir::cli {
 
 /// Writes trajectory.tum, covariance.csv and frames.csv, which are the same bytes for the same
-/// seed, and timing.csv, which is not.
-void write_run(const std::filesystem::path& folder, const RunResult& result);
+/// seed, and timing.csv, which is not; truth.tum where there is a truth.
+void write_run(const std::filesystem::path& folder, const RunResult& result,
+               const Trajectory& truth = {});
 
 std::vector<StampedCovariance> covariances_of(const RunResult& result);
 

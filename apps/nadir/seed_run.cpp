@@ -23,14 +23,6 @@ double total_rate(const RunResult& result) {
   return rate(result.records.size(), result.update_s() + result.decode_s() + result.prepare_s);
 }
 
-std::optional<Judgement> judge(const RunResult& result, const Trajectory& truth) {
-  if (truth.empty()) return std::nullopt;
-  const Trajectory estimated = result.trajectory();
-  Judgement judgement{evaluate(estimated, truth, {}), Alignment::kNone, {}};
-  judgement.consistency = consistency(estimated, covariances_of(result), truth, {});
-  return judgement;
-}
-
 }  // namespace
 
 std::optional<SeedRun> run_and_judge(const RunPlan& plan,
@@ -40,7 +32,9 @@ std::optional<SeedRun> run_and_judge(const RunPlan& plan,
   if (done == 0) return std::nullopt;
   run.truth = truth_of(plan.sequence, {plan.frames.begin(),
                                        plan.frames.begin() + static_cast<std::ptrdiff_t>(done)});
-  run.judgement = judge(run.result, run.truth);
+  if (!run.truth.empty()) {
+    run.judgement = judged(run.result.trajectory(), covariances_of(run.result), run.truth);
+  }
   return run;
 }
 

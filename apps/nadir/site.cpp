@@ -34,11 +34,16 @@ std::optional<std::filesystem::path> surface_path(const Sequence& sequence,
 }
 
 std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp) {
-  if (!sequence.truth) return std::nullopt;
-  const auto found = std::ranges::find_if(*sequence.truth, [&](const auto& stamped) {
-    return std::abs(stamped.stamp.nanoseconds - stamp.nanoseconds) <= kSameInstantNs;
-  });
-  if (found == sequence.truth->end()) return std::nullopt;
+  return sequence.truth ? truth_at(*sequence.truth, stamp) : std::nullopt;
+}
+
+std::optional<Pose2> truth_at(const Trajectory& truth, Stamp stamp) {
+  const Stamp earliest{stamp.nanoseconds - kSameInstantNs};
+  const auto found =
+      std::ranges::lower_bound(truth, earliest, {}, &StampedPose<frames::Map>::stamp);
+  if (found == truth.end() || found->stamp.nanoseconds > stamp.nanoseconds + kSameInstantNs) {
+    return std::nullopt;
+  }
   return found->pose;
 }
 

@@ -26,6 +26,7 @@ std::optional<std::filesystem::path> surface_path(const Sequence& sequence,
 
 /// The true pose at a stamp, within 0.01 s.
 std::optional<Pose2> truth_at(const Sequence& sequence, Stamp stamp);
+std::optional<Pose2> truth_at(const Trajectory& truth, Stamp stamp);
 
 /// The true poses from the first to the last of these frames.
 Trajectory truth_of(const Sequence& sequence, const std::vector<Sequence::LocalMap>& frames);

@@ -51,6 +51,17 @@ TEST_F(BadInputTest, MissingSite) {
   expect_refused(nadir({"eval", "no.tum", "--truth", "no.tum"}), 3, "no.tum");
 }
 
+TEST_F(BadInputTest, WhatIsNoRunHasNoReport) {
+  const std::string page = (place_ / "page.html").string();
+  expect_refused(nadir({"report", "no/such/run", "-o", page}), 3, "no/such/run");
+  expect_refused(nadir({"report", small_site().string(), "-o", page}), 3, "manifest.json");
+  expect_refused(nadir({"report", "no/such/map.tif", "-o", page}), 3, "map.tif");
+  expect_refused(nadir({"report", map_file(small_site()).string(), "-o", page}), 3,
+                 "no page beside it");
+  const std::string there = (small_site() / "sequence.yaml").string();
+  expect_refused(nadir({"report", "any", "-o", there}), 2, "--overwrite");
+}
+
 TEST_F(BadInputTest, FolderWithoutData) {
   const fs::path empty = scratch_folder() / "empty_folder";
   fs::create_directories(empty);

@@ -71,7 +71,8 @@ TEST(ResultTest, LocalizeWritesARunThatEvalJudgesAlike) {
       {"localize", small_site().string(), "-o", run, "--prior", "truth", "--prior-spread", "1,2"});
   EXPECT_EQ(document["frames"], kSmallSiteFrames);
   for (const char* file : {"trajectory.tum", "covariance.csv", "frames.csv", "timing.csv",
-                           "manifest.json", "trajectory.png", "swarm.png", "error.png"}) {
+                           "manifest.json", "trajectory.png", "swarm.png", "error.png",
+                           "comparison.png", "coverage.png", "truth.tum", "report.html"}) {
     EXPECT_TRUE(fs::exists(fs::path(run) / file)) << file;
   }
   const Json judged =
@@ -86,6 +87,20 @@ TEST(ResultTest, LocalizeWritesARunThatEvalJudgesAlike) {
   const Json part = json_of({"eval", run + "/trajectory.tum", "--truth",
                              (small_site() / "truth.tum").string(), "--frames", "2:4"});
   EXPECT_EQ(part["frames"], 3);
+}
+
+TEST(ResultTest, AReportIsWrittenAnewAndElsewhere) {
+  const std::string run = scratch("reported");
+  EXPECT_EQ(
+      nadir({"localize", small_site().string(), "-o", run, "--prior", "truth", "-q"}).exit_code, 0);
+  const std::string first = read_file(fs::path(run) / "report.html");
+  EXPECT_NE(first.find("8 of 8 frames compared"), std::string::npos);
+  EXPECT_EQ(json_of({"report", run})["report"], run + "/report.html");
+  EXPECT_EQ(read_file(fs::path(run) / "report.html"), first);
+  const std::string page = scratch("page.html");
+  EXPECT_EQ(json_of({"report", run, "-o", page})["bytes"], fs::file_size(page));
+  EXPECT_NE(nadir({"report", run, "-o", page}).exit_code, 0);
+  EXPECT_EQ(nadir({"report", run, "-o", page, "--overwrite"}).exit_code, 0);
 }
 
 TEST(ResultTest, AStartAtTheTruthBeginsWhereTheTruthDoes) {

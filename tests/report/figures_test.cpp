@@ -279,6 +279,69 @@ TEST(DrawPanels, EmptyAndOddInputsAreDrawn) {
   expect_sensible_size(draw_panels({{"inf", {{"a", {0.0, 1.0}, {1.0, infinity}}}}}, "x", "t"));
 }
 
+TEST(DrawPanels, ABandIsFilledBelowItsCurveAndNamed) {
+  const Curve line{"error", {0.0, 10.0}, {0.5, 0.5}};
+  const Band band{"2 sigma", {0.0, 10.0}, {0.0, 0.0}, {1.0, 1.0}};
+  const auto sky = [](const std::vector<Band>& bands, const Curve& curve) {
+    const Colour light{204, 232, 248};  // 30 % of the sky blue on paper
+    return count_near(draw_panels({{"m", {curve}, bands}}, "s", ""), light);
+  };
+  EXPECT_EQ(sky({}, line), 0);
+  EXPECT_GT(sky({band}, line), 200000);
+  Band broken = band;
+  broken.high[1] = kNan;
+  EXPECT_LT(sky({broken}, line), 2000);
+}
+
+TEST(DrawComparisons, ARowForEachWithItsThreePatches) {
+  const auto row = [](const std::string& label) {
+    return Comparison{label, grey_local(), Pose2{20.0, 15.0, 0.5}};
+  };
+  const Figure one = draw_comparisons(grey_map(), {row("frame 1")}, "a title");
+  const Figure two = draw_comparisons(grey_map(), {row("frame 1"), row("frame 2")}, "a title");
+  EXPECT_EQ(one.width(), two.width());
+  EXPECT_GT(two.height(), one.height() + 400);
+  // The local map is of grey 90, the map of 120: the checkerboard is half of each.
+  const int locals = count_near(one, {90, 90, 90});
+  const int maps = count_near(one, {120, 120, 120});
+  EXPECT_NEAR(locals, 1.5 * 420 * 420, 30000);
+  EXPECT_NEAR(maps, 1.5 * 420 * 420, 30000);
+}
+
+TEST(DrawComparisons, EmptyAndBrokenInputsAreDrawn) {
+  draw_comparisons(grey_map(), {}, "none");
+  draw_comparisons({}, {{"no map", grey_local(), Pose2{}}}, "");
+  draw_comparisons(grey_map(), {{"no local map", {}, Pose2{}}}, "");
+  draw_comparisons(grey_map(), {{"no pose", grey_local(), Pose2{kNan, 0.0, 0.0}}}, "");
+}
+
+TEST(DrawCoverage, WhatWasSeenOftenestIsBrightest) {
+  const GeoReference geo = grey_local().geo;
+  const Footprint there{Pose2{12.0, 15.0, 0.0}, geo, 60, 60};
+  Footprint ahead = there;
+  ahead.map_from_robot.x = 24.0;
+  const Figure figure = draw_coverage(grey_map(), {there, there, there, ahead}, "a title");
+  expect_sensible_size(figure);
+  report::Region content;
+  content.include(9.0, 12.0);
+  content.include(27.0, 18.0);
+  const auto region = report::region_of_interest(content, {0.0, 0.0, 40.0, 30.0, false}, 3.0);
+  const report::MapView view = report::lay_out_map(region, 0).view;
+  const Colour often = pixel(figure, view.at(12.0, 15.0));
+  const Colour once = pixel(figure, view.at(24.0, 15.0));
+  const Colour never = pixel(figure, view.at(18.0, 15.0));
+  EXPECT_GT(often.green, once.green + 50);
+  EXPECT_EQ(never.red, never.blue);
+}
+
+TEST(DrawCoverage, EmptyAndBrokenInputsAreDrawn) {
+  expect_sensible_size(draw_coverage(grey_map(), {}, "none"));
+  expect_sensible_size(
+      draw_coverage(grey_map(), {{Pose2{kNan, 1.0, 0.0}, grey_local().geo, 60, 60}}, "NaN"));
+  expect_sensible_size(draw_coverage({}, {{Pose2{}, grey_local().geo, 60, 60}}, "no map"));
+  expect_sensible_size(draw_coverage(grey_map(), {{Pose2{5.0, 5.0, 0.0}, {}, 0, 0}}, "nothing"));
+}
+
 TEST(DrawConventions, IsTheSameEveryTime) {
   const Figure figure = draw_conventions();
   expect_sensible_size(figure);

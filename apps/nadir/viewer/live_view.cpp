@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../base64.hpp"
 #include "../interrupt.hpp"
 
 namespace nadir::cli {

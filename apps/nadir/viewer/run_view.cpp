@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_view.hpp"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "../base64.hpp"
+#include "../run_record.hpp"
 #include "../site.hpp"
 #include "nadir/core/error.hpp"
-#include "nadir/io/input_file.hpp"
 #include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 
@@ -68,19 +67,6 @@ Json corners_on_earth(const MapTiles& tiles) {
   }
 }
 
-Json read_manifest(const fs::path& run) {
-  const fs::path file = run / "manifest.json";
-  if (!fs::is_regular_file(file)) {
-    throw Error(ErrorKind::kInput, "holds no manifest.json", run.string(),
-                "give a folder that `nadir localize` wrote");
-  }
-  Json manifest = Json::parse(read_file(file), nullptr, false);
-  if (!manifest.is_object()) {
-    throw Error(ErrorKind::kInput, "is not JSON", file.string(), "run localize again");
-  }
-  return manifest;
-}
-
 fs::path source(const Json& manifest, const char* role, const fs::path& given,
                 const fs::path& run) {
   const fs::path named =
@@ -101,39 +87,12 @@ LocalizerOptions options_of(const Json& manifest) {
   const Json values = manifest.value("options", Json::object());
   for (const auto& [name, entry] : values.items()) {
     if (table.find(name) == nullptr || !entry.contains("value")) continue;
-    const Json& value = entry["value"];
-    const std::string text = value.is_string()    ? value.get<std::string>()
-                             : value.is_boolean() ? (value.get<bool>() ? "on" : "off")
-                                                  : value.dump();
-    table.set(name, text);
+    table.set(name, option_text(entry["value"]));
   }
   return options;
 }
 
-/// The runs of several seeds lie in folders of their own: the first one is shown.
-fs::path run_folder(const fs::path& run) {
-  if (fs::exists(run / "trajectory.tum")) return run;
-  std::vector<fs::path> seeds;
-  for (const auto& entry : fs::directory_iterator(run)) {
-    if (fs::exists(entry.path() / "trajectory.tum")) seeds.push_back(entry.path());
-  }
-  if (seeds.empty()) {
-    throw Error(ErrorKind::kInput, "holds no trajectory.tum", run.string(),
-                "give a folder that `nadir localize` wrote");
-  }
-  return *std::ranges::min_element(seeds);
-}
-
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                                     reinterpret_cast<const unsigned char*>(bytes.data()),
-                                     static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(length));
-  return text;
-}
 
 RunView::RunView(const RunSources& sources, const LocalizerOptions& options,
                  const fs::path& particle_file, bool live)
@@ -152,7 +111,7 @@ std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) 
   const Json manifest = read_manifest(run);
   sources.site = source(manifest, "site", sources.site, run);
   sources.map = source(manifest, "map", sources.map, run);
-  const fs::path folder = run_folder(run);
+  const fs::path folder = first_run_in(run);
   auto view =
       std::make_unique<RunView>(sources, options_of(manifest), folder / "particles.bin", false);
   const Json settings{{"version", manifest.value("version", "")},

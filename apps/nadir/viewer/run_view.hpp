@@ -73,7 +73,4 @@ class RunView {
   mutable std::unique_ptr<MapIndex> index_;  ///< made when the first heat map is asked for
 };
 
-/// Of at most 2 GiB.
-std::string base64(std::string_view bytes);
-
 }  // namespace nadir::cli

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../base64.hpp"
 #include "nadir/core/error.hpp"
 #include "web_assets.hpp"
 

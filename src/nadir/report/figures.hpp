@@ -66,6 +66,23 @@ struct HeatMap {
 /// so.
 Figure draw_heat_map(const Orthomosaic& map, const Orthomosaic& local, const HeatMap& heat_map);
 
+/// A local map and where it was found.
+struct Comparison {
+  std::string label;  ///< e.g. "frame 170"
+  Orthomosaic local;
+  Pose2 map_from_robot;
+};
+
+/// Local maps beside what the map shows at their poses, and both as a checkerboard: a row each,
+/// upright in the robot's frame, with an arrow to the north and a scale bar.
+Figure draw_comparisons(const Orthomosaic& map, const std::vector<Comparison>& comparisons,
+                        const std::string& title);
+
+/// How many of the local maps show each place, over the map: their outlines at their poses, holes
+/// included; colour bar, scale bar, north arrow.
+Figure draw_coverage(const Orthomosaic& map, const std::vector<Footprint>& local_maps,
+                     const std::string& title);
+
 /// One curve of a time plot.
 struct Curve {
   std::string name;
@@ -73,10 +90,19 @@ struct Curve {
   std::vector<double> y;  ///< same length as x; NaN leaves a gap
 };
 
+/// What lies between two bounds over time, as two standard deviations do.
+struct Band {
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> low;   ///< same length as x; NaN leaves a gap
+  std::vector<double> high;  ///< same length as x
+};
+
 /// Stacked panels that share their x axis: error, yaw error, N_eff, …
 struct Panel {
   std::string y_label;
   std::vector<Curve> curves;
+  std::vector<Band> bands = {};  ///< drawn below the curves
 };
 /// Each panel has its own y axis, with its label at the left above it and its legend at the right.
 Figure draw_panels(const std::vector<Panel>& panels, const std::string& x_label,

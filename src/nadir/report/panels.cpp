@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "nadir/report/axes.hpp"
 #include "nadir/report/figures.hpp"
 #include "nadir/report/map_figure.hpp"
 #include "nadir/report/ticks.hpp"
@@ -18,70 +18,6 @@ constexpr double kHeader = 58.0;    ///< above each plot: its label and legend
 constexpr double kAxisRoom = 96.0;  ///< left of the plots: tick labels
 constexpr double kBelowAll = 84.0;  ///< below the last plot: tick labels and the x label
 constexpr double kTextSize = 19.0;
-
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-  bool empty = true;
-
-  void include(double value) {
-    if (!std::isfinite(value)) return;
-    low = empty ? value : std::min(low, value);
-    high = empty ? value : std::max(high, value);
-    empty = false;
-  }
-
-  /// One value, up to the rounding of how it was computed: too short for an axis.
-  bool is_point() const { return high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)); }
-};
-
-std::size_t length_of(const Curve& curve) { return std::min(curve.x.size(), curve.y.size()); }
-
-Interval x_interval(const std::vector<Panel>& panels) {
-  Interval interval;
-  for (const Panel& panel : panels) {
-    for (const Curve& curve : panel.curves) {
-      for (std::size_t i = 0; i < length_of(curve); ++i) interval.include(curve.x[i]);
-    }
-  }
-  if (interval.empty) return {0.0, 1.0, true};
-  if (interval.is_point()) return {interval.low - 0.5, interval.high + 0.5, false};
-  return interval;
-}
-
-/// The y axis reaches over whole steps, and down or up to zero where that is near.
-Interval y_interval(const Panel& panel, double& step) {
-  Interval data;
-  for (const Curve& curve : panel.curves) {
-    for (std::size_t i = 0; i < length_of(curve); ++i) {
-      if (std::isfinite(curve.x[i])) data.include(curve.y[i]);
-    }
-  }
-  const bool empty = data.empty;
-  if (empty) data = {0.0, 1.0, true};
-  if (data.low > 0.0 && data.low < 0.6 * data.high) data.low = 0.0;
-  if (data.high < 0.0 && data.high > 0.6 * data.low) data.high = 0.0;
-  if (data.is_point()) {
-    const double half = std::max(0.5, 0.1 * std::abs(data.low));
-    data.low -= half;
-    data.high += half;
-  }
-  step = nice_step(data.high - data.low, 4);
-  return {step * std::floor(data.low / step + 1e-9), step * std::ceil(data.high / step - 1e-9),
-          empty};
-}
-
-/// One plot: where its data coordinates lie in the figure.
-struct Plot {
-  Box box;
-  Interval x;
-  Interval y;
-
-  Position at(double across, double up) const {
-    return {box.left + (across - x.low) / (x.high - x.low) * box.width,
-            box.bottom() - (up - y.low) / (y.high - y.low) * box.height};
-  }
-};
 
 void draw_grid(Canvas& canvas, const Plot& plot, double x_step, double y_step, bool x_labels) {
   const Stroke grid{kGrid, 1.5, {}, 0.0};
@@ -105,6 +41,16 @@ void draw_grid(Canvas& canvas, const Plot& plot, double x_step, double y_step, b
               {kFrame, 1.8, {}, 0.0});
 }
 
+/// Filled between its bounds; a missing bound leaves a gap.
+void draw_band(Canvas& canvas, const Plot& plot, const Band& band) {
+  for (const auto& [first, last] : whole_runs(band)) {
+    std::vector<Position> outline;
+    for (std::size_t i = first; i < last; ++i) outline.push_back(plot.at(band.x[i], band.high[i]));
+    for (std::size_t i = last; i-- > first;) outline.push_back(plot.at(band.x[i], band.low[i]));
+    canvas.fill(outline, kBandColour, kBandOpacity);
+  }
+}
+
 /// The curve, and a dot where a value stands alone between gaps.
 void draw_curve(Canvas& canvas, const Plot& plot, const Curve& curve, Colour colour) {
   std::vector<Position> points;
@@ -121,24 +67,22 @@ void draw_curve(Canvas& canvas, const Plot& plot, const Curve& curve, Colour col
   canvas.line(points, {colour, 2.8, {}, 0.0});
 }
 
-/// Yellow is too light for a line on white.
-Colour curve_colour(std::size_t index) {
-  constexpr std::array<Colour, 6> kColours{kVermillion, kBlue, kGreen, kPurple, kOrange, kSkyBlue};
-  return kColours[index % kColours.size()];
-}
-
-/// Names of the curves from the right end of the header leftwards.
+/// Names of curves and bands from the right end of the header leftwards.
 void draw_names(Canvas& canvas, const Panel& panel, const Box& header) {
   const TextStyle style{20.0, kInk, Align::kLeft, false, {}};
   double right = header.right();
-  for (std::size_t i = panel.curves.size(); i-- > 0;) {
-    if (panel.curves[i].name.empty()) continue;
-    const double width = text_width(panel.curves[i].name, style);
+  const std::vector<Key> keys = keys_of(panel);
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    const double width = text_width(key->name, style);
     const double text = right - width;
     const double y = header.centre().y + 6.0;
     if (text - 52.0 < header.left + 0.35 * header.width) return;  // the panel's own label is there
-    canvas.text({text, y}, panel.curves[i].name, style);
-    canvas.line({{text - 46.0, y}, {text - 12.0, y}}, {curve_colour(i), 4.0, {}, 0.0});
+    canvas.text({text, y}, key->name, style);
+    if (key->is_band) {
+      canvas.fill(Box{text - 46.0, y - 8.0, 34.0, 16.0}.corners(), kBandColour, kBandOpacity);
+    } else {
+      canvas.line({{text - 46.0, y}, {text - 12.0, y}}, {curve_colour(key->index), 4.0, {}, 0.0});
+    }
     right = text - 46.0 - 30.0;
   }
 }
@@ -150,6 +94,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, const Box& box, const Interv
   const Plot plot{{box.left, box.top + kHeader, box.width, box.height - kHeader}, x, y};
   draw_grid(canvas, plot, x_step, y_step, last);
   canvas.clip(plot.box.inset(-3.0));
+  for (const Band& band : panel.bands) draw_band(canvas, plot, band);
   for (std::size_t i = panel.curves.size(); i-- > 0;) {
     draw_curve(canvas, plot, panel.curves[i], curve_colour(i));
   }
