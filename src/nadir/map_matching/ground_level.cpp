@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 namespace nadir {
@@ -70,7 +71,7 @@ struct Planes {
 /// Gaussian sums of a weight and of what it weighs.
 class Moments {
  public:
-  Moments(const cv::Mat& weight, double sigma) : weight_(weight), sigma_(sigma) {}
+  Moments(cv::Mat weight, double sigma) : weight_(std::move(weight)), sigma_(sigma) {}
   cv::Mat of(const cv::Mat& value) const { return smooth(weight_.mul(value)); }
   cv::Mat sum() const { return smooth(weight_); }
 

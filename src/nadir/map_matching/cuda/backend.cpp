@@ -71,7 +71,8 @@ void upload_turned(Device& device, const Batch& batch, std::span<const RotatedTe
   TurnedPixel* staged = work.staged_turned.reserve(count);
   std::fill_n(staged, count, TurnedPixel{});
   for (int k = 0; k < batch.count; ++k) {
-    const RotatedTemplate& local = templates[static_cast<std::size_t>(batch.first + k)];
+    const int index = batch.first + k;
+    const RotatedTemplate& local = templates[static_cast<std::size_t>(index)];
     TurnedPixel* own = staged + static_cast<std::size_t>(k) * pixels;
     for (int row = 0; row < local.value.height(); ++row) {
       const std::ptrdiff_t down = local.top - box.top + row;
