@@ -5,6 +5,9 @@
 JOBS ?= $(shell nproc)
 # Used where it is installed; CMake reads the variable from the environment.
 export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+# One cache serves every checkout and build folder.
+export CCACHE_BASEDIR ?= $(CURDIR)
+export CCACHE_NOHASHDIR ?= 1
 # ThreadSanitizer cannot place its shadow memory where the kernel randomises addresses too widely.
 NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
 
