@@ -16,9 +16,9 @@ inline constexpr const char* kNoData =
 /// NADIR_DATA points, then at ../shared/data from the project's root, where ctest runs the tests.
 inline std::optional<std::filesystem::path> find_data(const std::string& name) {
   const char* chosen = std::getenv("NADIR_DATA");
-  const std::filesystem::path root =
-      chosen != nullptr ? std::filesystem::path(chosen)
-                        : std::filesystem::absolute("../shared/data");
+  const std::filesystem::path root = chosen != nullptr
+                                         ? std::filesystem::path(chosen)
+                                         : std::filesystem::absolute("../shared/data");
   if (name.empty() || !std::filesystem::exists(root / name)) return std::nullopt;
   return root / name;
 }

@@ -19,10 +19,10 @@ struct Geodetic {
 };
 
 Geodetic inverse_mercator(double easting, double northing) {
-  constexpr double n = kFlattening / (2.0 - kFlattening);
-  constexpr double n2 = n * n;
-  constexpr double n3 = n2 * n;
-  constexpr double n4 = n3 * n;
+  const double n = kFlattening / (2.0 - kFlattening);
+  const double n2 = n * n;
+  const double n3 = n2 * n;
+  const double n4 = n3 * n;
   constexpr double kRectifying = kSemiMajor / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
   constexpr double kBeta[] = {n / 2.0 - 2.0 * n2 / 3.0 + 37.0 * n3 / 96.0 - n4 / 360.0,
                               n2 / 48.0 + n3 / 15.0 - 437.0 * n4 / 1440.0,
