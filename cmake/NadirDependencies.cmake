@@ -28,6 +28,17 @@ endif()
 if(Ceres_FOUND AND NOT NADIR_WITH_SFM STREQUAL "OFF")
   set(NADIR_HAS_SFM ON)
 endif()
+# ROS 1 bags are read where their library is there.
+set(NADIR_HAS_ROSBAG OFF)
+if(NOT NADIR_WITH_ROSBAG STREQUAL "OFF")
+  include(FindRosbagStorage)  # nadir_rosbag
+  if(TARGET nadir_rosbag)
+    set(NADIR_HAS_ROSBAG ON)
+  elseif(NADIR_WITH_ROSBAG STREQUAL "ON")
+    message(FATAL_ERROR "librosbag_storage or a message of ROS was not found: install librosbag-storage-dev "
+                        "libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev")
+  endif()
+endif()
 if(NADIR_BUILD_APPS)
   find_package(CLI11 REQUIRED)
   # cpp-httplib, the viewer's server. Debian compiles a part of it into a library, with features that

@@ -36,7 +36,7 @@ THIRD_PARTIES = {
     "cpp-httplib": r"httplib\.h$",
     "Ceres": r"ceres/",
     "CUDA": r"(cuda|cufft)\w*\.h$|cub/|thrust/",
-    "ROS bag": r"(rosbag|ros|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|tf2_msgs)/",
+    "ROS bag": r"(rosbag|ros|console_bridge|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|tf2_msgs)/",
     "POSIX": r"(unistd|fcntl|signal|poll|sched|spawn|termios)\.h$|sys/\w+\.h$",
 }
 COMPUTING = {"Eigen", "OpenCV", "oneTBB"}

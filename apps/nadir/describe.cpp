@@ -72,6 +72,13 @@ Json describe_poses(const TrajectoryIn<In>& trajectory) {
   return document;
 }
 
+/// Messages a second, to hundredths; null for one alone.
+Json rate_of(const BagTopic& topic) {
+  const double seconds = Stamp{topic.last.nanoseconds - topic.first.nanoseconds}.seconds();
+  if (!(seconds > 0.0)) return nullptr;
+  return std::round(100.0 * static_cast<double>(topic.messages - 1) / seconds) / 100.0;
+}
+
 }  // namespace
 
 Json describe_site(const std::filesystem::path& folder) {
@@ -114,6 +121,7 @@ Json describe_bag(const std::filesystem::path& file) {
   for (const BagTopic& topic : list_bag(file)) {
     document["topics"][topic.name] = {{"type", topic.type},
                                       {"messages", topic.messages},
+                                      {"rate_hz", rate_of(topic)},
                                       {"first_s", to_string(topic.first)},
                                       {"last_s", to_string(topic.last)}};
   }

@@ -159,7 +159,8 @@ TEST_F(ViewerServerTest, GivesParticlesTilesLocalAndHeatMaps) {
   EXPECT_EQ(client()->Get("/api/tiles/0/0/0")->get_header_value("Content-Type"), "image/png");
   EXPECT_EQ(Json::parse(client()->Get("/api/local/0")->body)["width"], 100);
   const Json heat = Json::parse(client()->Get("/api/heat/1")->body);
-  EXPECT_GT(heat["highest"].get<double>(), 0.9);  // the local map is a copy
+  // The local map is a copy, but its high-pass knows nothing of what lies beyond its edge.
+  EXPECT_GT(heat["highest"].get<double>(), 0.8);
   EXPECT_LT(heat["lowest"].get<double>(), 0.5);
 }
 

@@ -39,6 +39,8 @@ class IncrementalMapper {
   ~IncrementalMapper();
   IncrementalMapper(const IncrementalMapper&) = delete;
   IncrementalMapper& operator=(const IncrementalMapper&) = delete;
+  IncrementalMapper(IncrementalMapper&&) = delete;
+  IncrementalMapper& operator=(IncrementalMapper&&) = delete;
 
   /// Index of the camera, which is added where it is not known yet.
   std::size_t add_camera(const CameraPrior& camera);

@@ -158,9 +158,8 @@ void stamp_rows(PoseFile& file, const std::vector<DriveFrame>& all,
   for (std::size_t i = 0; i < frames.size(); ++i) file.poses[i].stamp = frames[i].stamp;
 }
 
-void take_poses(OpenedLayout& layout, const path& path_of_file, const std::vector<DriveFrame>& all,
-                PoseFrame asked) {
-  PoseFile file = read_pose_file(path_of_file);
+void take_poses(OpenedLayout& layout, PoseFile file, const path& path_of_file,
+                const std::vector<DriveFrame>& all, PoseFrame asked) {
   stamp_rows(file, all, layout.drive.frames, path_of_file);
   const PoseFrame frame = frame_of(file, asked);
   std::vector<StampedOdomPose3> poses;
@@ -169,7 +168,6 @@ void take_poses(OpenedLayout& layout, const path& path_of_file, const std::vecto
   }
   check_travel(poses, frame, asked != PoseFrame::kAuto, path_of_file, layout.drive);
   layout.drive.odometry = std::move(poses);
-  layout.drive.inputs.push_back(path_of_file);
 }
 
 std::string name_of(const path& place) {
@@ -221,7 +219,12 @@ Drive open_drive(const path& place, const DriveReadOptions& options) {
   select_frames(drive, options);
   note_gap(drive);
   const path poses = options.poses.empty() ? layout.poses : options.poses;
-  if (!poses.empty()) take_poses(layout, poses, all, options.pose_frame);
+  if (!poses.empty()) {
+    take_poses(layout, read_pose_file(poses), poses, all, options.pose_frame);
+    drive.inputs.push_back(poses);
+  } else if (layout.recorded_poses) {
+    take_poses(layout, *std::move(layout.recorded_poses), place, all, options.pose_frame);
+  }
   if (const path truth = place / "truth.tum"; is_file(truth)) drive.truth = truth;
   return std::move(layout.drive);
 }

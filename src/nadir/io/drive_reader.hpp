@@ -104,10 +104,10 @@ struct Drive {
 /// its axes level and forward as the camera looks at the first pose; of a lidar drive, it is the
 /// lidar's. Throws Error (input) with file, line or frame, value and cure for what is missing or
 /// contradictory, (usage) for options that do not fit.
-Drive open_drive(const std::filesystem::path& path, const DriveReadOptions& options = {});
+Drive open_drive(const std::filesystem::path& place, const DriveReadOptions& options = {});
 
 /// The layout of a folder or file. Throws Error (input) that lists the known ones where it is none.
-DriveFormat guess_drive_format(const std::filesystem::path& path);
+DriveFormat guess_drive_format(const std::filesystem::path& place);
 
 /// The pose at an instant: interpolated between two samples at most 0.5 s apart, or the nearest
 /// sample within 0.01 s; else nothing.

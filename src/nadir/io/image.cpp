@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/detail/image_bytes.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -55,8 +56,11 @@ cv::Mat in_opencv_order(Raster<std::uint8_t> image) {
 }  // namespace
 
 Raster<std::uint8_t> read_image(const std::filesystem::path& path) {
+  return decode_image(path, read_file(path));
+}
+
+Raster<std::uint8_t> decode_image(const std::filesystem::path& path, std::string bytes) {
   silence_opencv();
-  std::string bytes = read_file(path);
   check_image_is_whole(path, bytes);
   const cv::Mat decoded = decode(path, bytes);
   if (decoded.empty()) {

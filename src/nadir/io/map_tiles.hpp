@@ -31,6 +31,8 @@ class MapTiles {
   ~MapTiles();
   MapTiles(const MapTiles&) = delete;
   MapTiles& operator=(const MapTiles&) = delete;
+  MapTiles(MapTiles&&) = delete;
+  MapTiles& operator=(MapTiles&&) = delete;
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -96,8 +96,7 @@ MetricFrame MetricFrame::around(const std::vector<GeodeticPosition>& positions) 
   const int zone =
       std::clamp(static_cast<int>(std::floor((middle.longitude_deg + 180.0) / 6.0)) + 1, 1, 60);
   const int epsg = (south ? 32700 : 32600) + zone;
-  return MetricFrame(
-      epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north"));
+  return {epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north")};
 }
 
 Point3<frames::Map> MetricFrame::to_map(const GeodeticPosition& position) const {

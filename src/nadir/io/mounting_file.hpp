@@ -20,9 +20,9 @@ inline constexpr const char* kMountingFile = "mounting.yaml";
 
 /// Throws Error (input) with file:line for an unknown key, numbers that are missing or not finite,
 /// and a quaternion that is not of unit length.
-Mounting read_mounting(const std::filesystem::path& path);
+Mounting read_mounting(const std::filesystem::path& file);
 
 /// Writes atomically.
-void write_mounting(const std::filesystem::path& path, const Mounting& mounting);
+void write_mounting(const std::filesystem::path& file, const Mounting& mounting);
 
 }  // namespace nadir

@@ -59,10 +59,10 @@ std::string encode_jpeg(const std::filesystem::path& path, const Photo& photo, i
 }  // namespace
 
 std::vector<std::filesystem::path> photo_files(const std::filesystem::path& folder) {
-  static const std::set<std::string> kJpeg{".jpg", ".jpeg"};
-  static const std::set<std::string> kOthers{".png", ".tif", ".tiff"};
+  static const std::set<std::string> jpeg{".jpg", ".jpeg"};
+  static const std::set<std::string> others{".png", ".tif", ".tiff"};
   for (const Depth depth : {Depth::kFolder, Depth::kAllBelow}) {
-    for (const auto& extensions : {kJpeg, kOthers}) {
+    for (const auto& extensions : {jpeg, others}) {
       std::vector<std::filesystem::path> files = files_in(folder, depth);
       std::erase_if(files, [&](const auto& file) {
         return !extensions.contains(lower_extension(file)) ||

@@ -79,7 +79,7 @@ std::map<std::string, std::string> read_xmp(GDALDataset& dataset) {
 }
 
 std::string read_head(const std::filesystem::path& path) {
-  constexpr std::streamsize kHead = 256 * 1024;  // four segments of the largest size
+  constexpr std::streamsize kHead = 262'144;  // four segments of the largest size
   std::string head(static_cast<std::size_t>(kHead), '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), kHead);

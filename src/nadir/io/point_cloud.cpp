@@ -21,12 +21,6 @@ static_assert(std::endian::native == std::endian::little, "clouds are written as
 const std::vector<CloudField> kVelodyneFields{
     {"x", 'F', 4, 1}, {"y", 'F', 4, 1}, {"z", 'F', 4, 1}, {"intensity", 'F', 4, 1}};
 
-/// A beam without an echo is written as the origin by most drivers.
-bool is_valid(const LidarPoint& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) &&
-         (point.x != 0.0F || point.y != 0.0F || point.z != 0.0F);
-}
-
 std::string packed(const std::vector<LidarPoint>& points) {
   std::string bytes(points.size() * 4 * sizeof(float), '\0');
   char* out = bytes.data();
@@ -58,13 +52,7 @@ PointCloud read_point_cloud(const std::filesystem::path& path) {
     throw input_error(path, "'" + extension + "' is no format of a point cloud",
                       "give .bin (float32 x y z intensity), .pcd or .ply");
   }
-  const std::size_t all = cloud.points.size();
-  std::erase_if(cloud.points, [](const LidarPoint& point) { return !is_valid(point); });
-  cloud.invalid = all - cloud.points.size();
-  if (cloud.points.empty()) {
-    throw input_error(path, fmt::format("none of its {} points is valid", all),
-                      "all are NaN, infinite or zero: check the recording");
-  }
+  drop_invalid(path, cloud);
   return cloud;
 }
 

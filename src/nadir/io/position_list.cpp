@@ -20,7 +20,7 @@ const std::vector<std::string> kColumns{"name", "lat",   "lon",  "alt",
 
 /// Other names of the columns in the wild.
 std::string column_name(const std::string& word) {
-  static const std::map<std::string, std::string> kOtherNames{
+  static const std::map<std::string, std::string> other_names{
       {"filename", "name"}, {"file", "name"},    {"image", "name"},  {"photo", "name"},
       {"label", "name"},    {"latitude", "lat"}, {"y", "lat"},       {"longitude", "lon"},
       {"long", "lon"},      {"lng", "lon"},      {"x", "lon"},       {"altitude", "alt"},
@@ -29,8 +29,8 @@ std::string column_name(const std::string& word) {
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   lower.erase(0, lower.find_first_not_of("# "));
-  const auto found = kOtherNames.find(lower);
-  return found == kOtherNames.end() ? lower : found->second;
+  const auto found = other_names.find(lower);
+  return found == other_names.end() ? lower : found->second;
 }
 
 bool is_header(const TextRow& row) {

@@ -20,6 +20,8 @@ class DescriptorIndex {
   ~DescriptorIndex();
   DescriptorIndex(const DescriptorIndex&) = delete;
   DescriptorIndex& operator=(const DescriptorIndex&) = delete;
+  DescriptorIndex(DescriptorIndex&&) = delete;
+  DescriptorIndex& operator=(DescriptorIndex&&) = delete;
 
   /// The `count` nearest of each query: indices and squared distances, one row a query.
   void search(const cv::Mat& queries, int count, cv::Mat& indices, cv::Mat& distances) const;

@@ -75,6 +75,12 @@ void require_xyz(const std::filesystem::path& path, const std::vector<CloudField
   }
 }
 
+/// A beam without an echo is written as the origin by most drivers.
+bool is_valid(const LidarPoint& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) &&
+         (point.x != 0.0F || point.y != 0.0F || point.z != 0.0F);
+}
+
 /// PCL writes what it does not know as "nan".
 double text_number(std::string_view text, const std::string& where) {
   if (text == "nan" || text == "-nan" || text == "NaN") {
@@ -146,6 +152,16 @@ std::vector<LidarPoint> points_of_text(const std::filesystem::path& path, std::s
                       "the file is cut off: copy it again");
   }
   return points;
+}
+
+void drop_invalid(const std::filesystem::path& path, PointCloud& cloud) {
+  const std::size_t all = cloud.points.size();
+  std::erase_if(cloud.points, [](const LidarPoint& point) { return !is_valid(point); });
+  cloud.invalid = all - cloud.points.size();
+  if (cloud.points.empty()) {
+    throw input_error(path, fmt::format("none of its {} points is valid", all),
+                      "all are NaN, infinite or zero: check the recording");
+  }
 }
 
 }  // namespace nadir

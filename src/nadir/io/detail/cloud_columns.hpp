@@ -46,6 +46,10 @@ std::vector<CloudColumn> interleaved(const std::vector<CloudField>& fields);
 /// Bytes of one point.
 std::size_t point_size(const std::vector<CloudField>& fields);
 
+/// Drops and counts the points that are not finite or lie in the sensor. Throws Error (input) where
+/// none is left.
+void drop_invalid(const std::filesystem::path& path, PointCloud& cloud);
+
 std::vector<LidarPoint> read_pcd(const std::filesystem::path& path, std::string_view bytes);
 std::vector<LidarPoint> read_ply(const std::filesystem::path& path, std::string_view bytes);
 

@@ -82,7 +82,7 @@ std::vector<path> files_of(const path& folder, DriveFiles kind) {
 }
 
 std::optional<StereoFolders> find_stereo_folders(const path& folder) {
-  static const std::array<std::pair<const char*, const char*>, 7> kNames{
+  static constexpr std::array<std::pair<const char*, const char*>, 7> kNames{
       {{"image_2", "image_3"},
        {"image_02", "image_03"},
        {"image_0", "image_1"},

@@ -18,8 +18,10 @@ namespace nadir {
 /// A drive whose poses have not been looked at yet.
 struct OpenedLayout {
   Drive drive;
-  /// The poses that the layout has, where it has any.
+  /// The file of poses that the layout has, where it has any.
   std::filesystem::path poses;
+  /// The poses that are recorded with the images.
+  std::optional<PoseFile> recorded_poses = std::nullopt;
   /// Of the camera that camera poses are of.
   Transform3<frames::Robot, frames::Camera> robot_from_pose_camera;
   /// EuRoC: of the body that its poses are of.
@@ -30,7 +32,7 @@ OpenedLayout open_kitti_stereo(const std::filesystem::path& folder, const Mounti
 OpenedLayout open_kitti_lidar(const std::filesystem::path& folder, const Mounting& mounting);
 OpenedLayout open_kitti_raw(const std::filesystem::path& folder, const Mounting& mounting,
                             DriveSensor sensor);
-OpenedLayout open_euroc(const std::filesystem::path& folder, const Mounting& mounting);
+OpenedLayout open_euroc(const std::filesystem::path& given, const Mounting& mounting);
 OpenedLayout open_stereo_folder(const std::filesystem::path& folder, const Mounting& mounting);
 OpenedLayout open_rosbag(const std::filesystem::path& file, const Mounting& mounting,
                          const DriveReadOptions& options);

@@ -34,8 +34,8 @@ class StoredMatrices {
     for (const std::string& name : names) {
       const auto found = matrices_.find(name);
       if (found == matrices_.end()) continue;
-      const std::vector<double> values(found->second.values.begin<double>(),
-                                       found->second.values.end<double>());
+      std::vector<double> values(found->second.values.begin<double>(),
+                                 found->second.values.end<double>());
       if (values.size() < count) {
         throw Error(ErrorKind::kInput,
                     fmt::format("'{}' has {} numbers instead of {}", name, values.size(), count),
