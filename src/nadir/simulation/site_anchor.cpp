@@ -23,17 +23,17 @@ Geodetic inverse_mercator(double easting, double northing) {
   const double n2 = n * n;
   const double n3 = n2 * n;
   const double n4 = n3 * n;
-  constexpr double kRectifying = kSemiMajor / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
-  constexpr double kBeta[] = {n / 2.0 - 2.0 * n2 / 3.0 + 37.0 * n3 / 96.0 - n4 / 360.0,
-                              n2 / 48.0 + n3 / 15.0 - 437.0 * n4 / 1440.0,
-                              17.0 * n3 / 480.0 - 37.0 * n4 / 840.0, 4397.0 * n4 / 161280.0};
-  const double xi = northing / (kScale * kRectifying);
-  const double eta = (easting - kFalseEasting) / (kScale * kRectifying);
+  const double rectifying = kSemiMajor / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
+  const double beta[] = {n / 2.0 - 2.0 * n2 / 3.0 + 37.0 * n3 / 96.0 - n4 / 360.0,
+                         n2 / 48.0 + n3 / 15.0 - 437.0 * n4 / 1440.0,
+                         17.0 * n3 / 480.0 - 37.0 * n4 / 840.0, 4397.0 * n4 / 161280.0};
+  const double xi = northing / (kScale * rectifying);
+  const double eta = (easting - kFalseEasting) / (kScale * rectifying);
   double xi_sphere = xi;
   double eta_sphere = eta;
   for (int j = 1; j <= 4; ++j) {
-    xi_sphere -= kBeta[j - 1] * std::sin(2.0 * j * xi) * std::cosh(2.0 * j * eta);
-    eta_sphere -= kBeta[j - 1] * std::cos(2.0 * j * xi) * std::sinh(2.0 * j * eta);
+    xi_sphere -= beta[j - 1] * std::sin(2.0 * j * xi) * std::cosh(2.0 * j * eta);
+    eta_sphere -= beta[j - 1] * std::cos(2.0 * j * xi) * std::sinh(2.0 * j * eta);
   }
   const double conformal = std::asin(std::sin(xi_sphere) / std::cosh(eta_sphere));
   const double longitude = std::atan2(std::sinh(eta_sphere), std::cos(xi_sphere));
