@@ -146,9 +146,9 @@ std::vector<Chart> charts_of(const RunRecord& run) {
   } else {
     charts.push_back(uncertainty(run));
   }
-  charts.push_back(filter(run));
   charts.push_back(times(run));
   charts.push_back(times_over_run(run));
+  charts.push_back(filter(run));
   return charts;
 }
 
