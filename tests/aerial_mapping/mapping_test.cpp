@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 
 #include "aerial_mapping/flight.hpp"
 #include "nadir/core/error.hpp"
@@ -200,6 +202,120 @@ TEST_F(Mapping, WaterIsNoGroundAndPhotosOfItAloneDoNotJoin) {
   EXPECT_LT(compare(flight, map).relative_rms_m, 0.15);
 }
 
+bool warns(const AerialMap& map, const std::string& first, const std::string& second) {
+  const auto& warnings = map.report.warnings;
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
+    return text.find(first) != std::string::npos && text.find(second) != std::string::npos;
+  });
+}
+
+/// A block of six photos, to say something of its tags.
+Flight small_flight() { return fly(terrain(), {.strips = 2, .photos = 3}, {}); }
+
+TEST_F(Mapping, ABlurredPhotoIsNamedAndShownNowhereElse) {
+  Flight flight = usual_flight();
+  const std::size_t blurred = 5;  // amid the block
+  const auto load = flight.set.photos[blurred].load;
+  flight.set.photos[blurred].load = [load] {
+    // Out of focus: the mean of 7 x 7 pixels.
+    const Raster<std::uint8_t> sharp = load();
+    Raster<std::uint8_t> soft = sharp;
+    for (int row = 3; row < sharp.height() - 3; ++row)
+      for (int column = 3; column < sharp.width() - 3; ++column)
+        for (int channel = 0; channel < 3; ++channel) {
+          int sum = 0;
+          for (int dy = -3; dy <= 3; ++dy)
+            for (int dx = -3; dx <= 3; ++dx) sum += sharp.at(column + dx, row + dy, channel);
+          soft.at(column, row, channel) = static_cast<std::uint8_t>(sum / 49);
+        }
+    return soft;
+  };
+  const AerialMap map = map_photos(flight.set, quick_options());
+  const std::string& name = flight.set.photos[blurred].name;
+  EXPECT_TRUE(warns(map, name, "blurred")) << map.report.warnings.size();
+  EXPECT_FALSE(warns(map, flight.set.photos[0].name, "blurred"));
+  for (int row = 0; row < map.ortho.height(); row += 3)
+    for (int column = 0; column < map.ortho.width(); column += 3) {
+      if (map.ortho.valid.at(column, row) == 0) continue;
+      const bool from_blurred = map.poses[map.source.at(column, row)].name == name;
+      ASSERT_FALSE(from_blurred && map.view_count.at(column, row) > 1) << column << " " << row;
+    }
+}
+
+TEST_F(Mapping, AGroundThatIsNotWhereTheAltitudeSaysIsDoubtful) {
+  Flight flight = small_flight();
+  for (MappingPhoto& photo : flight.set.photos) *photo.prior.relative_altitude_m *= 1.4;
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_TRUE(warns(map, "surface doubtful", "nearer"));
+  EXPECT_FALSE(warns(map_photos(small_flight().set, quick_options()), "surface doubtful", ""));
+}
+
+TEST_F(Mapping, HeightsThatTrendAgainstThePositionsAreDoubtful) {
+  Flight flight = usual_flight();
+  // A barometer that drifts by 6 m over the flight, said to be worse than the gimbals are good.
+  for (std::size_t i = 0; i < flight.set.photos.size(); ++i) {
+    auto& prior = flight.set.photos[i].prior;
+    prior.position->z += 0.15 * prior.position->x;
+    prior.vertical_sigma_m = 20.0;
+  }
+  const AerialMap map = map_photos(flight.set, quick_options());
+  EXPECT_TRUE(warns(map, "surface doubtful", "against the positions"));
+}
+
+TEST_F(Mapping, AFreeFocalLengthOverFlatGroundIsHeld) {
+  AerialMappingOptions options = quick_options();
+  options.free_focal = true;
+  const Flight flight = small_flight();
+  const AerialMap map = map_photos(flight.set, options);
+  EXPECT_TRUE(warns(map, "free focal length", "held by its prior"));
+  EXPECT_NEAR(map.report.cameras[0].model.fx, 400.0, 24.0);
+  EXPECT_GT(map.report.cameras[0].focal_sigma, 0.0);
+}
+
+/// A store in memory, that counts.
+class MemoryStore : public MappingStore {
+ public:
+  std::optional<std::string> find(const std::string& key) override {
+    const std::scoped_lock lock(mutex_);
+    const auto found = values_.find(key);
+    if (found == values_.end()) return std::nullopt;
+    ++hits;
+    return found->second;
+  }
+  void keep(const std::string& key, const std::string& bytes) override {
+    const std::scoped_lock lock(mutex_);
+    values_[key] = bytes;
+  }
+  std::size_t size() const { return values_.size(); }
+  void cut_all() {
+    for (auto& [key, bytes] : values_) bytes.resize(bytes.size() / 2 + 1);
+  }
+  int hits = 0;
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> values_;
+};
+
+TEST_F(Mapping, TakesUpWhatAStoreKept) {
+  Flight flight = small_flight();
+  const AerialMap without = map_photos(flight.set, quick_options());
+  for (MappingPhoto& photo : flight.set.photos) photo.digest = "content of " + photo.name;
+  MemoryStore store;
+  EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+  EXPECT_EQ(store.hits, 0);
+  EXPECT_GT(store.size(), 6U);
+  EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+  EXPECT_EQ(static_cast<std::size_t>(store.hits), store.size());
+  // Another content under the same name is another photo, and damage is found.
+  store.hits = 0;
+  flight.set.photos[0].digest = "something else";
+  EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+  EXPECT_LT(static_cast<std::size_t>(store.hits), store.size());
+  store.cut_all();
+  EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+}
+
 TEST_F(Mapping, OneStripIsHeldByItsGimbal) {
   FlightPlan plan;
   plan.strips = 1;
@@ -210,6 +326,11 @@ TEST_F(Mapping, OneStripIsHeldByItsGimbal) {
   const AerialMap map = map_photos(flight.set, quick_options());
   EXPECT_EQ(map.report.registered, 5);
   EXPECT_LT(compare(flight, map).relative_rms_m, 0.25);
+  EXPECT_TRUE(warns(map, "one straight strip", "the gimbal angles alone, to 1.5 degrees"));
+  PhotoSet without = flight.set;
+  for (MappingPhoto& photo : without.photos) photo.prior.attitude.reset();
+  EXPECT_TRUE(warns(map_photos(without, quick_options()), "one straight strip",
+                    "the assumption that the photos look straight down"));
 }
 
 TEST_F(Mapping, GivenPosesAreTakenAsTheyAre) {

@@ -20,8 +20,8 @@ bool can_solve_poses() {
 }
 
 AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
-                     const MappingProgress& progress) {
-  aerial::Pipeline pipeline(options);
+                     const MappingProgress& progress, MappingStore* store) {
+  aerial::Pipeline pipeline(options, store);
   return pipeline.run(photos, progress);
 }
 

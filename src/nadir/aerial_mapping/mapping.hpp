@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nadir/aerial_mapping/aerial_map.hpp"
+#include "nadir/aerial_mapping/mapping_store.hpp"
 #include "nadir/aerial_mapping/options.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
 
@@ -39,11 +40,14 @@ inline constexpr std::array<MappingStage, 7> kMappingStages{{{"features", 0.30},
 /// arbitrary scale, at which one pixel of the map is one pixel of the photos, and says so:
 /// ScaleSource::kNone and a warning. Without positions the map frame begins at (0, 0).
 ///
+/// With a store, features and matches of photos that have a digest are kept in it and taken from
+/// it; the map is the same.
+///
 /// Throws Error (usage) for a set that contradicts itself (repeated names, a camera that is not
 /// there, a size beyond max_megapixels), Error (input) for pixels of another size than the camera's
 /// and Error (no result) where fewer than two photos join.
 AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
-                     const MappingProgress& progress = {});
+                     const MappingProgress& progress = {}, MappingStore* store = nullptr);
 
 /// Whether this build finds poses by itself (NADIR_WITH_SFM): features, matching, adjustment.
 bool can_solve_poses();

@@ -44,6 +44,7 @@ struct PhotoPrior {
 struct MappingPhoto {
   std::string name;        ///< unique; the photo's identity: order and random numbers follow it
   std::size_t camera = 0;  ///< index into PhotoSet::cameras
+  std::string digest;      ///< names the pixels, for a MappingStore; empty = not to be kept
   PhotoPrior prior;
   /// Gives the pixels, RGB or grey, of the camera's size. Called from several threads, for
   /// different photos at the same time, and more than once a photo, so that memory stays bounded.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "nadir/aerial_mapping/detail/report.hpp"
+#include "nadir/aerial_mapping/flight.hpp"
 #include "nadir/aerial_mapping/ortho/orthomosaic.hpp"
 #include "nadir/core/error.hpp"
 
@@ -94,6 +95,21 @@ Block given_block(const PhotoSet& set) {
 }
 #endif
 
+#ifdef NADIR_HAS_SFM
+/// Blurred photos hold the block together as the others do, but show it only where no sharp one
+/// does.
+void set_blurred(const PhotoSet& set, const std::vector<std::size_t>& blurred, Block& block,
+                 AdjustmentReport& report) {
+  if (blurred.empty()) return;
+  std::vector<std::string> names;
+  for (const std::size_t i : blurred) names.push_back(set.photos[i].name);
+  for (View& view : block.views)
+    view.blurred = std::find(blurred.begin(), blurred.end(), view.photo) != blurred.end();
+  report.warnings.push_back(listed(names) +
+                            ": blurred; left out where another photo sees the ground");
+}
+#endif
+
 void shift_map(AerialMap& map, const Eigen::Vector3d& anchor) {
   map.ortho.geo.west += anchor.x();
   map.ortho.geo.north += anchor.y();
@@ -124,9 +140,11 @@ LocalSet localise(const PhotoSet& photos, const Eigen::Vector3d* anchor) {
 }
 
 #ifdef NADIR_HAS_SFM
-Pipeline::Pipeline(const AerialMappingOptions& options) : options_(options), graph_(options) {}
+Pipeline::Pipeline(const AerialMappingOptions& options, MappingStore* store)
+    : options_(options), graph_(options, store) {}
 #else
-Pipeline::Pipeline(const AerialMappingOptions& options) : options_(options) {}
+Pipeline::Pipeline(const AerialMappingOptions& options, MappingStore* /*store*/)
+    : options_(options) {}
 #endif
 
 AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress) {
@@ -154,12 +172,14 @@ AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress)
   tell("adjustment", 1.0);
   watch.stage("adjustment");
   Block block = block_of(found);
+  set_blurred(set, graph_.blurred(set), block, map.report);
 #else
   if (!posed)
     throw Error(ErrorKind::kUsage, "this build finds no poses by itself (NADIR_WITH_SFM)", {},
                 "give the photos' poses");
   Block block = given_block(set);
 #endif
+  sweep_for_points(set, block, options_);
   const Extent extent = extent_of(block, options_);
   const Ground ground = ground_of(block, extent, options_);
   tell("surface", 1.0);

@@ -25,7 +25,7 @@ LocalSet localise(const PhotoSet& photos, const Eigen::Vector3d* anchor = nullpt
 /// Photos in, map out; keeps features and matches for the next run.
 class Pipeline {
  public:
-  explicit Pipeline(const AerialMappingOptions& options);
+  explicit Pipeline(const AerialMappingOptions& options, MappingStore* store = nullptr);
 
   AerialMap run(const PhotoSet& photos, const MappingProgress& progress);
 

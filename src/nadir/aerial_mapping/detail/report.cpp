@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
+#include "nadir/aerial_mapping/flight.hpp"
 #ifdef NADIR_HAS_SFM
+#include <Eigen/Dense>
+
 #include "nadir/aerial_mapping/sfm/triangulation.hpp"
 #endif
 
@@ -68,22 +72,14 @@ void fill_views(const PhotoSet& set, const Block& block, const Ground& ground, A
 namespace {
 
 constexpr int kManyViews = 3;
-constexpr std::size_t kManyPoints = 200;
 constexpr double kDoubtfulAltitude = 0.1;
+constexpr double kDoubtfulTrend = 0.05;  // of the flying height, over the block
+constexpr std::size_t kFewestForTrend = 8;
 
 std::string number(double value, int digits) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   return text.data();
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 12;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > kMost) text += ", and " + std::to_string(names.size() - kMost) + " more";
-  return text;
 }
 
 void report_observations(const PhotoSet& set, const Reconstruction& found,
@@ -134,6 +130,38 @@ void report_positions(const PhotoSet& set, const Reconstruction& found, Adjustme
                            std::sqrt(squares[2] / count)};
   report.position_residual_m = std::sqrt((squares[0] + squares[1]) / count);
   if (found.state.time_offset_s != 0.0) report.time_offset_s = found.state.time_offset_s;
+}
+
+/// Heights that rise against the positions' from one end of the block to the other, or from its
+/// middle to its edge, and more than they scatter: tilted, or bent as a wrong lens bends it.
+void report_trend(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
+  std::vector<Eigen::Vector3d> places;
+  std::vector<double> residuals;
+  for (const PhotoReport& photo : report.photos) {
+    if (!photo.position_residual_m) continue;
+    const auto at = std::find_if(set.photos.begin(), set.photos.end(),
+                                 [&](const MappingPhoto& p) { return p.name == photo.name; });
+    places.push_back(found.model.poses[static_cast<std::size_t>(at - set.photos.begin())].centre);
+    residuals.push_back((*photo.position_residual_m)[2]);
+  }
+  if (places.size() < kFewestForTrend) return;
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : places) middle += p / static_cast<double>(n);
+  Eigen::MatrixXd rows(n, 4);
+  Eigen::VectorXd values(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d p = places[static_cast<std::size_t>(i)] - middle;
+    rows.row(i) << 1.0, p.x(), p.y(), p.head<2>().squaredNorm();
+    values[i] = residuals[static_cast<std::size_t>(i)];
+  }
+  const Eigen::VectorXd trend = rows * rows.colPivHouseholderQr().solve(values);
+  const double range = trend.maxCoeff() - trend.minCoeff();
+  const double scatter = std::sqrt((values - trend).squaredNorm() / static_cast<double>(n));
+  const double height = middle.z() - found.state.ground;
+  if (range > kDoubtfulTrend * height && range > 4.0 * scatter)
+    report.warnings.push_back("surface doubtful: the heights rise by " + number(range, 1) +
+                              " m against the positions over the block: tilted or bent");
 }
 
 void report_control(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
@@ -217,7 +245,45 @@ void report_scale(const PhotoSet& set, const Reconstruction& found, AdjustmentRe
     report.warnings.push_back("surface doubtful: the ground lies " +
                               number(100.0 * std::abs(off), 0) + " % " +
                               (off > 0.0 ? "farther" : "nearer") +
-                              " below the photos than their height above take-off says");
+                              " below the photos than their height above take-off says: the "
+                              "scale is uncertain by as much");
+}
+
+/// Directions that the photos leave open and a prior holds.
+void report_weakness(const Reconstruction& found, AdjustmentReport& report) {
+  if (found.strip_turn_sigma_deg)
+    report.warnings.push_back(
+        "one straight strip: the turn about it is held by " +
+        std::string(found.strip_held_by_gimbals
+                        ? "the gimbal angles"
+                        : "the assumption that the photos look straight down") +
+        " alone, to " + number(*found.strip_turn_sigma_deg, 1) + " degrees");
+  if (!found.focal_held || found.focal_sigma.empty()) return;
+  report.warnings.push_back(
+      "the photos look straight down and there are no control points, which leaves a free focal "
+      "length open: held by its prior, to " +
+      number(100.0 * found.focal_sigma.front(), 1) + " %");
+}
+
+/// Points that three photos or more see; in squares of side `near` that hold none, those of two.
+std::vector<Eigen::Vector3d> surface_points(const std::vector<Landmark>& landmarks, double near) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> of_two;
+  std::set<std::pair<long, long>> covered;
+  for (const Landmark& landmark : landmarks) {
+    if (!landmark.valid) continue;
+    const Eigen::Vector3d& p = landmark.position;
+    if (landmark.used_count() < kManyViews) {
+      of_two.push_back(p);
+      continue;
+    }
+    points.push_back(p);
+    covered.emplace(std::lround(p.x() / near), std::lround(p.y() / near));
+  }
+  for (const Eigen::Vector3d& p : of_two)
+    if (!covered.contains({std::lround(p.x() / near), std::lround(p.y() / near)}))
+      points.push_back(p);
+  return points;
 }
 
 }  // namespace
@@ -235,17 +301,9 @@ Block block_of(const Reconstruction& found) {
     view.centre = pose.centre;
     block.views.push_back(view);
   }
-  std::vector<Eigen::Vector3d> sure;
-  std::vector<Eigen::Vector3d> all;
-  for (const Landmark& landmark : found.surface.empty() ? found.model.landmarks : found.surface) {
-    if (!landmark.valid) continue;
-    all.push_back(landmark.position);
-    if (landmark.used_count() >= kManyViews) sure.push_back(landmark.position);
-  }
-  double height = 0.0;
-  for (const View& view : block.views)
-    height += (view.centre.z() - block.ground) / static_cast<double>(block.views.size());
-  block.points = without_outliers(sure.size() >= kManyPoints ? sure : all, 0.01 * height);
+  const auto& landmarks = found.surface.empty() ? found.model.landmarks : found.surface;
+  block.points = without_outliers(surface_points(landmarks, 5.0 * block.outlier_tolerance()),
+                                  block.outlier_tolerance());
   return block;
 }
 
@@ -254,9 +312,11 @@ void fill_report(const PhotoSet& set, const Reconstruction& found,
                  AdjustmentReport& report) {
   report_observations(set, found, report);
   report_positions(set, found, report);
+  report_trend(set, found, report);
   report_control(set, found, report);
   report_groups(set, found, report);
   report_scale(set, found, report);
+  report_weakness(found, report);
   for (const VerifiedPair& pair : pairs)
     if (pair.support() >= options.min_pair_inliers)
       report.pairs.push_back({set.photos[pair.first].name, set.photos[pair.second].name,
@@ -270,7 +330,6 @@ void fill_report(const PhotoSet& set, const Reconstruction& found,
     if (i < found.focal_sigma.size()) camera.focal_sigma = found.focal_sigma[i];
     report.cameras.push_back(camera);
   }
-  report.warnings.insert(report.warnings.end(), found.warnings.begin(), found.warnings.end());
 }
 
 #endif

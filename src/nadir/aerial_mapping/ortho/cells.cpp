@@ -18,6 +18,7 @@ constexpr float kUnseen = std::numeric_limits<float>::infinity();
 constexpr double kEdgeCost = 0.3;          // of a place at the border of its photo
 constexpr double kRoughCost = 0.3;         // of ground that rises by 1 m in 1 m, seen obliquely
 constexpr float kProvisionalCost = 10.0F;  // any other view is better
+constexpr float kBlurredCost = 4.0F;       // any sharp view is better, whatever its angle
 constexpr float kBand = 0.35F;             // of cost, in which a border may move
 
 Eigen::Vector3d point_of(const CellGrid& grid, const Ground& ground, int column, int row) {
@@ -86,8 +87,9 @@ ViewCells look_through(const View& view, const Ground& ground, const CellGrid& g
       const double lean = std::tan(sight->off_nadir_rad) / std::tan(limits.max_off_nadir_rad);
       const double cost = lean * lean + kEdgeCost * (1.0 - std::min(1.0, sight->edge)) +
                           kRoughCost * lean * roughness(grid, ground, point);
-      cells.cost.at<float>(row, column) =
-          static_cast<float>(cost) + (view.provisional ? kProvisionalCost : 0.0F);
+      cells.cost.at<float>(row, column) = static_cast<float>(cost) +
+                                          (view.blurred ? kBlurredCost : 0.0F) +
+                                          (view.provisional ? kProvisionalCost : 0.0F);
       u.at<float>(row, column) = static_cast<float>((sight->u + 0.5) * su - 0.5);
       v.at<float>(row, column) = static_cast<float>((sight->v + 0.5) * sv - 0.5);
     }
@@ -178,6 +180,34 @@ cv::Mat count_views(const std::vector<ViewCells>& cells, const CellGrid& grid) {
         n = static_cast<std::uint8_t>(std::min(255, n + 1));
       }
   return count;
+}
+
+void keep_from_clipping(const std::vector<ViewCells>& cells, const cv::Mat& labels,
+                        std::vector<View>& views) {
+  constexpr float kBrightest = 245.0F;
+  constexpr double kMayClip = 0.005;  // share of the cells
+  constexpr float kLowest = 0.75F;
+  std::vector<float> brightness;
+  for (int row = 0; row < labels.rows; ++row)
+    for (int column = 0; column < labels.cols; ++column) {
+      const std::uint16_t label = labels.at<std::uint16_t>(row, column);
+      if (label == kNoView) continue;
+      const cv::Vec3b colour = cells[label].colour.at<cv::Vec3b>(row - cells[label].rect.y,
+                                                                 column - cells[label].rect.x);
+      float brightest = 0.0F;
+      for (int channel = 0; channel < 3; ++channel)
+        brightest = std::max(brightest, static_cast<float>(colour[channel]) *
+                                            views[label].gain[static_cast<std::size_t>(channel)]);
+      brightness.push_back(brightest);
+    }
+  if (brightness.empty()) return;
+  const auto at =
+      brightness.begin() +
+      static_cast<std::ptrdiff_t>((1.0 - kMayClip) * static_cast<double>(brightness.size() - 1));
+  std::nth_element(brightness.begin(), at, brightness.end());
+  const float factor = std::clamp(kBrightest / std::max(*at, 1.0F), kLowest, 1.0F);
+  for (View& view : views)
+    for (float& gain : view.gain) gain *= factor;
 }
 
 cv::Mat choose_views(const std::vector<ViewCells>& cells, const std::vector<View>& views,

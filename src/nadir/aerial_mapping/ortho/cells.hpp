@@ -36,6 +36,11 @@ cv::Mat count_views(const std::vector<ViewCells>& cells, const CellGrid& grid);
 
 inline constexpr std::uint16_t kNoView = 65535;
 
+/// Lowers all gains alike until hardly any cell of the map is brighter than it can be shown, by a
+/// fourth at most: photos that were exposed for dark woods are darker than bright ground needs.
+void keep_from_clipping(const std::vector<ViewCells>& cells, const cv::Mat& labels,
+                        std::vector<View>& views);
+
 /// The view that each cell takes its colour from (16 bit, kNoView = none): the one that sees it
 /// best, with the borders moved to where neighbouring views look alike.
 cv::Mat choose_views(const std::vector<ViewCells>& cells, const std::vector<View>& views,

@@ -17,6 +17,8 @@ constexpr double kPointsPerBin = 4.0;
 constexpr std::size_t kFewestNeighbours = 6;
 constexpr double kScatter = 4.0 * 1.4826;  // robust standard deviations
 constexpr float kUnknown = std::numeric_limits<float>::lowest();
+constexpr float kBeyond = std::numeric_limits<float>::infinity();
+constexpr double kSpan = 4.0;  // longest side of a triangle, in largest distances
 
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -32,6 +34,7 @@ Ground empty_ground(const Extent& extent, double cell_m) {
   ground.heights.height_m = Raster<float>(width, height, kUnknown);
   ground.heights.geo = {extent.west, extent.north, cell_m, {}};
   ground.distance_m = Raster<float>(width, height, 0.0F);
+  ground.span_m = Raster<float>(width, height, kBeyond);
   return ground;
 }
 
@@ -100,7 +103,8 @@ std::vector<Triangle> delaunay(const std::vector<Eigen::Vector3d>& points, const
   return triangles;
 }
 
-void fill(const Triangle& t, Raster<float>& heights) {
+void fill(const Triangle& t, Ground& ground) {
+  Raster<float>& heights = ground.heights.height_m;
   const double area =
       (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) - (t[2].x() - t[0].x()) * (t[1].y() - t[0].y());
   if (std::abs(area) < 1e-9) return;
@@ -111,6 +115,9 @@ void fill(const Triangle& t, Raster<float>& heights) {
   const int r0 = std::max(0, static_cast<int>(std::floor(top - 0.5)));
   const int r1 = std::min(heights.height() - 1, static_cast<int>(std::ceil(bottom)));
   constexpr double kEdge = -1e-6;
+  const double longest = std::max({(t[0] - t[1]).head<2>().norm(), (t[1] - t[2]).head<2>().norm(),
+                                   (t[2] - t[0]).head<2>().norm()});
+  const auto span = static_cast<float>(longest * ground.heights.geo.resolution);
   for (int row = r0; row <= r1; ++row)
     for (int column = c0; column <= c1; ++column) {
       const double x = column + 0.5;
@@ -122,6 +129,7 @@ void fill(const Triangle& t, Raster<float>& heights) {
       if (b < kEdge || c < kEdge || b + c > 1.0 - kEdge) continue;
       heights.at(column, row) =
           static_cast<float>(t[0].z() + b * (t[1].z() - t[0].z()) + c * (t[2].z() - t[0].z()));
+      ground.span_m.at(column, row) = span;
     }
 }
 
@@ -175,6 +183,18 @@ double Ground::distance_at(double x, double y) const {
   return bilinear(distance_m, heights.geo, x, y);
 }
 
+bool Ground::is_known(int column, int row, double max_distance_m) const {
+  return distance_m.at(column, row) <= max_distance_m ||
+         span_m.at(column, row) <= kSpan * max_distance_m;
+}
+
+bool Ground::is_known_at(double x, double y, double max_distance_m) const {
+  const PixelCoordinate at = heights.geo.pixel_at(x, y);
+  const int column = std::clamp(static_cast<int>(std::floor(at.column)), 0, distance_m.width() - 1);
+  const int row = std::clamp(static_cast<int>(std::floor(at.row)), 0, distance_m.height() - 1);
+  return is_known(column, row, max_distance_m);
+}
+
 std::vector<Eigen::Vector3d> without_outliers(std::vector<Eigen::Vector3d> points,
                                               double tolerance_m) {
   if (points.size() < 20) return points;
@@ -216,7 +236,7 @@ Ground triangulated_ground(const std::vector<Eigen::Vector3d>& points, const Ext
   Raster<float>& heights = ground.heights.height_m;
   const auto triangles = delaunay(few, ground.heights.geo, heights.width(), heights.height());
   if (triangles.empty()) return plane_ground(points, extent, cell_m, 0.0);
-  for (const Triangle& triangle : triangles) fill(triangle, heights);
+  for (const Triangle& triangle : triangles) fill(triangle, ground);
   fill_unknown(heights);
   if (std::count(heights.values().begin(), heights.values().end(), kUnknown) > 0)
     return plane_ground(points, extent, cell_m, 0.0);

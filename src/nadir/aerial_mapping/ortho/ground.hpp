@@ -21,8 +21,13 @@ struct Extent {
 struct Ground {
   ElevationMap heights;      ///< without holes
   Raster<float> distance_m;  ///< same grid: to the nearest point that the heights come from
+  Raster<float> span_m;      ///< longest side of the triangle of points there; infinite beyond them
   double height_at(double x, double y) const;
   double distance_at(double x, double y) const;
+  /// Whether the ground is known in a cell: near a point, or between points that are no farther
+  /// apart than four times as much.
+  bool is_known(int column, int row, double max_distance_m) const;
+  bool is_known_at(double x, double y, double max_distance_m) const;
 };
 
 /// Points that stand out from their neighbours by more than these usually scatter, or than

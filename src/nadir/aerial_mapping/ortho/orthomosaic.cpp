@@ -13,6 +13,7 @@
 
 #include "nadir/aerial_mapping/ortho/cells.hpp"
 #include "nadir/aerial_mapping/ortho/exposure.hpp"
+#include "nadir/aerial_mapping/ortho/sweep.hpp"
 #include "nadir/aerial_mapping/ortho/tile.hpp"
 #include "nadir/core/error.hpp"
 
@@ -26,6 +27,7 @@ constexpr std::size_t kImageBudget = 600U << 20U;  // bytes of photos that are h
 constexpr double kSharpness = 0.75;  // photo pixels are shrunk to this share of a map pixel
 constexpr double kLargestHoleM2 = 150.0;
 constexpr double kObliqueRad = 0.17;
+constexpr std::size_t kFewestForSurface = 30;  // points; a plane below that
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 double off_nadir(const View& view) {
@@ -59,19 +61,18 @@ cv::Mat valid_cells(const CellGrid& grid, const cv::Mat& count, const cv::Mat& l
       const std::uint16_t label = labels.at<std::uint16_t>(row, column);
       if (label == kNoView) continue;
       const bool provisional = views[label].provisional;
-      const double distance =
-          ground.distance_at(grid.geo.x_at(column + 0.5), grid.geo.y_at(row + 0.5));
       if (provisional || (count.at<std::uint8_t>(row, column) >= options.min_views &&
-                          distance <= options.max_surface_distance_m))
+                          ground.is_known_at(grid.geo.x_at(column + 0.5), grid.geo.y_at(row + 0.5),
+                                             options.max_surface_distance_m)))
         valid.at<std::uint8_t>(row, column) = 1;
     }
   return valid;
 }
 
 /// Small patches without points that valid cells enclose on all sides (lawn, asphalt, a car that
-/// drove off) are interpolated from around them: valid too where enough views see them.
-void close_holes(const CellGrid& grid, const cv::Mat& count, const cv::Mat& labels, int min_views,
-                 cv::Mat& valid) {
+/// drove off), or that crowns hide from all views but one, are interpolated from around them: valid
+/// too where any view sees them.
+void close_holes(const CellGrid& grid, const cv::Mat& labels, cv::Mat& valid) {
   cv::Mat open(valid.size(), CV_8U);
   for (int row = 0; row < valid.rows; ++row)
     for (int column = 0; column < valid.cols; ++column)
@@ -93,8 +94,7 @@ void close_holes(const CellGrid& grid, const cv::Mat& count, const cv::Mat& labe
     for (int row = box.y; row < box.y + box.height; ++row)
       for (int column = box.x; column < box.x + box.width; ++column)
         if (patches.at<int>(row, column) == patch &&
-            labels.at<std::uint16_t>(row, column) != kNoView &&
-            count.at<std::uint8_t>(row, column) >= min_views)
+            labels.at<std::uint16_t>(row, column) != kNoView)
           valid.at<std::uint8_t>(row, column) = 1;
   }
 }
@@ -167,54 +167,83 @@ void crop_surface(const Ground& ground, const AerialMappingOptions& options, Aer
   map.surface.geo.crs = map.ortho.geo.crs;
   for (int row = 0; row < map.surface.height(); ++row)
     for (int column = 0; column < map.surface.width(); ++column)
-      if (ground.distance_m.at(column, row) > options.max_surface_distance_m)
+      if (!ground.is_known(column, row, options.max_surface_distance_m))
         map.surface.height_m.at(column, row) = std::numeric_limits<float>::quiet_NaN();
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Extent kNowhere{kInfinity, kInfinity, -kInfinity, -kInfinity};
+
+void include(double x, double y, Extent& extent) {
+  extent.west = std::min(extent.west, x);
+  extent.east = std::max(extent.east, x);
+  extent.south = std::min(extent.south, y);
+  extent.north = std::max(extent.north, y);
+}
+
+/// The corners of a photo, as far as the limit on oblique rays lets them go.
+void include_footprint(const View& view, double ground, double max_off_nadir_rad, Extent& extent) {
+  const CameraModel& camera = view.camera;
+  for (const double u : {0.0, camera.width - 1.0})
+    for (const double v : {0.0, camera.height - 1.0}) {
+      const Eigen::Vector3d ray = view.camera_from_map.transpose() * camera.ray({u, v});
+      const double across = std::hypot(ray.x(), ray.y());
+      const double down = std::max(-ray.z(), across / std::tan(max_off_nadir_rad));
+      const double scale = (view.centre.z() - ground) / std::max(down, 1e-9);
+      include(view.centre.x() + scale * ray.x(), view.centre.y() + scale * ray.y(), extent);
+    }
+}
+
+/// Corners on whole cells of the views' grid, so that the map's pixels lie on whole multiples of
+/// the resolution whatever its extent.
+Extent on_whole_cells(const Extent& extent, double resolution) {
+  const double cell = std::max(1.0, std::round(kCellM / resolution)) * resolution;
+  return {std::floor(extent.west / cell) * cell, std::floor(extent.south / cell) * cell,
+          std::ceil(extent.east / cell) * cell, std::ceil(extent.north / cell) * cell};
 }
 
 }  // namespace
 
+double Block::outlier_tolerance() const {
+  double height = 0.0;
+  for (const View& view : views)
+    height += (view.centre.z() - ground) / static_cast<double>(views.size());
+  return 0.01 * height;
+}
+
 Extent extent_of(const Block& block, const AerialMappingOptions& options) {
-  double west = std::numeric_limits<double>::infinity();
-  double south = west;
-  double east = -west;
-  double north = -west;
-  const auto include = [&](double x, double y) {
-    west = std::min(west, x);
-    east = std::max(east, x);
-    south = std::min(south, y);
-    north = std::max(north, y);
-  };
+  Extent extent = kNowhere;
   const bool by_points = options.surface != SurfaceKind::kPlane && block.points.size() >= 3;
-  for (const View& view : block.views) {
-    if (by_points && !view.provisional) continue;
-    const CameraModel& camera = view.camera;
-    for (const double u : {0.0, camera.width - 1.0})
-      for (const double v : {0.0, camera.height - 1.0}) {
-        Eigen::Vector3d ray = view.camera_from_map.transpose() * camera.ray({u, v});
-        // As far as the limit on oblique rays lets them go.
-        const double farthest = std::tan(limits_of(block, options).max_off_nadir_rad);
-        const double across = std::hypot(ray.x(), ray.y());
-        const double down = std::max(-ray.z(), across / farthest);
-        const double scale = (view.centre.z() - block.ground) / std::max(down, 1e-9);
-        include(view.centre.x() + scale * ray.x(), view.centre.y() + scale * ray.y());
-      }
-  }
+  for (const View& view : block.views)
+    if (!by_points || view.provisional)
+      include_footprint(view, block.ground, limits_of(block, options).max_off_nadir_rad, extent);
   if (by_points)
     for (const Eigen::Vector3d& p : block.points) {
-      include(p.x() - options.max_surface_distance_m, p.y() - options.max_surface_distance_m);
-      include(p.x() + options.max_surface_distance_m, p.y() + options.max_surface_distance_m);
+      const double d = options.max_surface_distance_m;
+      include(p.x() - d, p.y() - d, extent);
+      include(p.x() + d, p.y() + d, extent);
     }
-  // Corners on whole cells of the views' grid, so that the map's pixels lie on whole multiples of
-  // the resolution whatever its extent.
-  const double cell =
-      std::max(1.0, std::round(kCellM / options.resolution_m)) * options.resolution_m;
-  return {std::floor(west / cell) * cell, std::floor(south / cell) * cell,
-          std::ceil(east / cell) * cell, std::ceil(north / cell) * cell};
+  return on_whole_cells(extent, options.resolution_m);
+}
+
+void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options) {
+  if (options.surface == SurfaceKind::kPlane || block.points.size() < kFewestForSurface) return;
+  const ViewLimits limits = limits_of(block, options);
+  Extent extent = kNowhere;
+  for (const View& view : block.views)
+    include_footprint(view, block.ground, limits.max_off_nadir_rad, extent);
+  extent = on_whole_cells(extent, options.resolution_m);
+  const Ground ground = ground_of(block, extent, options);
+  ViewImages images(set, block.views, kImageBudget);
+  const std::vector<Eigen::Vector3d> more =
+      sweep_gaps(block.views, images, ground, limits, options.max_surface_distance_m);
+  block.points.insert(block.points.end(), more.begin(), more.end());
+  block.points = without_outliers(std::move(block.points), block.outlier_tolerance());
 }
 
 Ground ground_of(const Block& block, const Extent& extent, const AerialMappingOptions& options) {
   const double cell = std::max(kGroundPixels * options.resolution_m, 0.2);
-  if (options.surface == SurfaceKind::kPlane || block.points.size() < 30)
+  if (options.surface == SurfaceKind::kPlane || block.points.size() < kFewestForSurface)
     return plane_ground(block.points, extent, cell, block.ground);
   return triangulated_ground(block.points, extent, cell);
 }
@@ -251,7 +280,8 @@ void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, c
       choose_views(cells, block.views, grid, options.blend == BlendKind::kMultiBand);
   const cv::Mat count = count_views(cells, grid);
   cv::Mat valid = valid_cells(grid, count, labels, ground, block.views, options);
-  close_holes(grid, count, labels, options.min_views, valid);
+  close_holes(grid, labels, valid);
+  keep_from_clipping(cells, labels, block.views);
   cv::Mat quality(grid.height, grid.width, CV_32F, cv::Scalar(0));
   for (int row = 0; row < grid.height; ++row)
     for (int column = 0; column < grid.width; ++column)

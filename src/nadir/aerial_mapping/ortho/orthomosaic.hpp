@@ -19,7 +19,12 @@ struct Block {
   std::vector<View> views;
   std::vector<Eigen::Vector3d> points;  ///< triangulated
   double ground = 0.0;                  ///< their mean height, or what is known of it
+  /// By which a point may stand out from its neighbours in any case: 1 % of the flying height.
+  double outlier_tolerance() const;
 };
+
+/// Adds points where features gave none and the photos agree on a height.
+void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options);
 
 /// The area that the points reach, or, without any, the photos on a plane.
 Extent extent_of(const Block& block, const AerialMappingOptions& options);

@@ -28,6 +28,7 @@ struct View {
   /// as a pixel of the map.
   double shrink = 1.0;
   bool provisional = false;
+  bool blurred = false;  ///< gives colour only where no sharp view does
 };
 
 /// Which part of a photo is used.

@@ -79,6 +79,22 @@ void to_root_sift(cv::Mat& descriptors) {
   }
 }
 
+/// Mean absolute Laplacian.
+double detail(const cv::Mat& grey) {
+  cv::Mat second;
+  cv::Laplacian(grey, second, CV_32F);
+  return cv::norm(second, cv::NORM_L1) / static_cast<double>(second.total());
+}
+
+/// From half the size on, so that the noise of the sensor is no detail.
+double sharpness_of(const cv::Mat& grey) {
+  cv::Mat half;
+  cv::Mat quarter;
+  cv::resize(grey, half, {}, 0.5, 0.5, cv::INTER_AREA);
+  cv::resize(half, quarter, {}, 0.5, 0.5, cv::INTER_AREA);
+  return detail(half) / std::max(1e-6, detail(quarter));
+}
+
 }  // namespace
 
 PhotoFeatures find_features(const Raster<std::uint8_t>& image, int limit) {
@@ -97,6 +113,7 @@ PhotoFeatures find_features(const Raster<std::uint8_t>& image, int limit) {
                    [&](std::size_t a, std::size_t b) { return points[a].size > points[b].size; });
 
   PhotoFeatures features;
+  features.sharpness = sharpness_of(grey);
   features.descriptors.create(static_cast<int>(kept.size()), 128, CV_32F);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const cv::KeyPoint& p = points[kept[i]];

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "nadir/aerial_mapping/ortho/pixels.hpp"
+#include "nadir/aerial_mapping/sfm/stored.hpp"
 
 namespace nadir::aerial {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 constexpr std::size_t kFeatureMemory = 700U << 20U;  // bytes that all detectors together may use
 constexpr int kCoarseFeatures = 1200;
 constexpr std::size_t kCoarseMatches = 10;
+constexpr double kBlurred = 0.6;  // of the usual sharpness
 
 /// Counts finished work and passes the share on, from one thread at a time.
 class Counter {
@@ -36,6 +38,40 @@ class Counter {
 
 }  // namespace
 
+PhotoFeatures PhotoGraph::features_of(const PhotoSet& set, std::size_t photo) const {
+  const std::string& digest = set.photos[photo].digest;
+  const std::string key = "features " + digest + " " + std::to_string(options_.features_per_photo);
+  const bool kept = store_ != nullptr && !digest.empty();
+  if (kept)
+    if (const auto bytes = store_->find(key))
+      if (auto features = features_from(*bytes)) return std::move(*features);
+  PhotoFeatures features = find_features(load_checked(set, photo), options_.features_per_photo);
+  if (kept) store_->keep(key, to_bytes(features));
+  return features;
+}
+
+VerifiedPair PhotoGraph::pair_of(const MappingPhoto& first, const MappingPhoto& second) const {
+  const bool near = first.prior.position && second.prior.position;
+  const bool kept = store_ != nullptr && !first.digest.empty() && !second.digest.empty();
+  std::string key = "pair " + first.digest + " " + second.digest + " " +
+                    std::to_string(options_.features_per_photo) + (near ? " near " : " ");
+  key += first.name + " " + second.name;  // on which the random numbers depend
+  if (kept)
+    if (const auto bytes = store_->find(key))
+      if (auto pair = pair_from(*bytes)) return std::move(*pair);
+  const Entry& a = photos_.at(first.name);
+  const Entry& b = photos_.at(second.name);
+  VerifiedPair pair;
+  const bool promising =
+      near || match_features(a.features, b.features, *a.index, *b.index, kCoarseFeatures).size() >=
+                  kCoarseMatches;
+  if (promising)
+    verify(a.features, b.features, match_features(a.features, b.features, *a.index, *b.index),
+           seed_of(first.name + "\n" + second.name), pair);
+  if (kept) store_->keep(key, to_bytes(pair));
+  return pair;
+}
+
 void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
   std::vector<std::size_t> wanted;
   std::size_t largest = 1;
@@ -51,7 +87,7 @@ void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
   const auto detect_one = [&](std::size_t k) {
     Entry& entry = found[k];
     const MappingPhoto& photo = set.photos[wanted[k]];
-    entry.features = find_features(load_checked(set, wanted[k]), options_.features_per_photo);
+    entry.features = features_of(set, wanted[k]);
     entry.index =
         std::make_unique<DescriptorIndex>(entry.features.descriptors, seed_of(photo.name));
     counter.done();
@@ -71,18 +107,7 @@ void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share
   std::vector<VerifiedPair> found(wanted.size());
   Counter counter(wanted.size(), progress);
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
-    const auto& [a, b] = wanted[k];
-    const Entry& first = photos_.at(set.photos[a].name);
-    const Entry& second = photos_.at(set.photos[b].name);
-    VerifiedPair& pair = found[k];
-    const bool near = set.photos[a].prior.position && set.photos[b].prior.position;
-    const bool promising = near || match_features(first.features, second.features, *first.index,
-                                                  *second.index, kCoarseFeatures)
-                                           .size() >= kCoarseMatches;
-    if (promising)
-      verify(first.features, second.features,
-             match_features(first.features, second.features, *first.index, *second.index),
-             seed_of(set.photos[a].name + "\n" + set.photos[b].name), pair);
+    found[k] = pair_of(set.photos[wanted[k].first], set.photos[wanted[k].second]);
     counter.done();
   });
   for (std::size_t k = 0; k < wanted.size(); ++k)
@@ -95,6 +120,20 @@ std::vector<PhotoFeatures> PhotoGraph::features(const PhotoSet& set) const {
   for (const MappingPhoto& photo : set.photos)
     features.push_back(photos_.at(photo.name).features);  // the descriptors are shared
   return features;
+}
+
+std::vector<std::size_t> PhotoGraph::blurred(const PhotoSet& set) const {
+  std::map<std::size_t, std::vector<double>> by_camera;
+  for (const MappingPhoto& photo : set.photos)
+    by_camera[photo.camera].push_back(photos_.at(photo.name).features.sharpness);
+  for (auto& [camera, values] : by_camera) std::sort(values.begin(), values.end());
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    const std::vector<double>& values = by_camera.at(set.photos[i].camera);
+    const double usual = values[values.size() / 2];
+    if (photos_.at(set.photos[i].name).features.sharpness < kBlurred * usual) found.push_back(i);
+  }
+  return found;
 }
 
 std::vector<VerifiedPair> PhotoGraph::verified(const PhotoSet& set, const PhotoPairs& pairs) const {

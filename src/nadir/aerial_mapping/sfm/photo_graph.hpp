@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "nadir/aerial_mapping/mapping_store.hpp"
 #include "nadir/aerial_mapping/options.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
 #include "nadir/aerial_mapping/sfm/matching.hpp"
@@ -22,7 +23,9 @@ using Share = std::function<void(double)>;
 /// a map that grows finds only what is new.
 class PhotoGraph {
  public:
-  explicit PhotoGraph(const AerialMappingOptions& options) : options_(options) {}
+  /// With a store, what is found is kept in it and taken from it.
+  explicit PhotoGraph(const AerialMappingOptions& options, MappingStore* store = nullptr)
+      : options_(options), store_(store) {}
 
   /// Features of the photos that have none yet.
   void detect(const PhotoSet& set, const Share& progress);
@@ -34,6 +37,9 @@ class PhotoGraph {
   /// Features of the photos of a set, in its order.
   std::vector<PhotoFeatures> features(const PhotoSet& set) const;
 
+  /// Photos, by number, that are much less sharp than the others of their camera.
+  std::vector<std::size_t> blurred(const PhotoSet& set) const;
+
   /// The pairs that were matched, with the photos' numbers in the set; sorted.
   std::vector<VerifiedPair> verified(const PhotoSet& set, const PhotoPairs& pairs) const;
 
@@ -42,7 +48,11 @@ class PhotoGraph {
     PhotoFeatures features;
     std::unique_ptr<DescriptorIndex> index;
   };
+  PhotoFeatures features_of(const PhotoSet& set, std::size_t photo) const;
+  VerifiedPair pair_of(const MappingPhoto& first, const MappingPhoto& second) const;
+
   const AerialMappingOptions options_;
+  MappingStore* store_;
   std::map<std::string, Entry> photos_;
   std::map<std::pair<std::string, std::string>, VerifiedPair> pairs_;
 };

@@ -24,6 +24,8 @@ constexpr double kGuidanceMargin = 0.05;  // of the flying height
 constexpr std::size_t kNeighbours = 8;    // that a new photo moves
 constexpr double kNarrow = 0.15;          // width of a strip in lengths
 constexpr double kNadirSigmaDeg = 10.0;
+constexpr std::size_t kFewestControl = 3;
+constexpr double kObliqueRad = 0.17;  // usual tilt from which a block holds its focal length
 
 double median_height(const Model& model, double ground) {
   std::vector<double> heights;
@@ -181,14 +183,29 @@ class Reconstructor {
     for (const std::size_t i : group) attitudes = attitudes && set_.photos[i].prior.attitude;
     if (!positions) plan_.gauge_sigma_m = median_height(model(), state().ground);
     levelled_ = attitudes;
-    if (attitudes) return;
-    if (!positions || !widths || widths->second < kNarrow * widths->first) {
-      plan_.nadir_sigma_deg = kNadirSigmaDeg;
-      if (positions)
-        result_.warnings.emplace_back(
-            "one straight strip without gimbal angles: the turn about it is held by the "
-            "assumption that the photos look straight down");
+    const bool strip = !widths || widths->second < kNarrow * widths->first;
+    if (!attitudes && (!positions || strip)) plan_.nadir_sigma_deg = kNadirSigmaDeg;
+    if (positions && strip) {
+      result_.strip_turn_sigma_deg = attitudes ? options_.gimbal_sigma_deg : kNadirSigmaDeg;
+      result_.strip_held_by_gimbals = attitudes;
     }
+    hold_focal_of_flat_block();
+  }
+
+  /// A block that looks straight down does not determine its focal length: its prior does.
+  void hold_focal_of_flat_block() {
+    if (!options_.free_focal || set_.control_points.size() >= kFewestControl) return;
+    std::vector<double> tilts;
+    for (const MappingPhoto& photo : set_.photos)
+      if (photo.prior.attitude)
+        tilts.push_back(0.5 * std::numbers::pi + photo.prior.attitude->pitch);
+    if (!tilts.empty()) {
+      const auto middle = tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2);
+      std::nth_element(tilts.begin(), middle, tilts.end());
+      if (*middle > kObliqueRad) return;
+    }
+    options_.free_focal = false;
+    result_.focal_held = true;
   }
 
   /// The start knows poses to some per cent of the flying height: the ground is a plane to it, at
@@ -397,7 +414,7 @@ class Reconstructor {
   const PhotoSet& set_;
   const std::vector<PhotoFeatures>& features_;
   const std::vector<VerifiedPair>& pairs_;
-  const AerialMappingOptions& options_;
+  AerialMappingOptions options_;
   Reconstruction result_;
   Placement placement_;
   AdjustmentPlan plan_;

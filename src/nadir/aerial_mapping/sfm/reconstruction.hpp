@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,11 @@ struct Reconstruction {
   double scale_sigma = 0.0;
   double heading_sigma_rad = 0.0;
   std::vector<double> focal_sigma;  ///< of ln f, a camera
-  std::vector<std::string> warnings;
+  /// Where the positions lie on one straight line, which leaves the turn about it open: the
+  /// standard deviation of what holds it, degrees, and whether that is the gimbals.
+  std::optional<double> strip_turn_sigma_deg;
+  bool strip_held_by_gimbals = false;
+  bool focal_held = false;  ///< although it was to be free: nothing else would have held it
 };
 
 /// Cameras by their priors, no poses, tracks of the group's photos.
