@@ -16,6 +16,7 @@
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/photo_file.hpp"
+#include "nadir/io/sha256.hpp"
 #include "photo_pixels.hpp"
 
 namespace nadir::cli {
@@ -44,10 +45,10 @@ FlightPhoto read_one(const fs::path& file, const std::string& name,
                      std::map<std::string, std::string>& known, std::vector<std::string>& copies) {
   FlightPhoto photo{file, read_photo_metadata(file)};
   photo.metadata.name = name;
+  photo.digest = sha256_of_file(file);
   const std::string bytes = read_file(file);
   check_image_is_whole(file, bytes);
-  const std::string content = fmt::format("{}:{}", bytes.size(), std::hash<std::string>{}(bytes));
-  const auto [first, added] = known.try_emplace(content, name);
+  const auto [first, added] = known.try_emplace(photo.digest, name);
   if (!added) copies.push_back(name + " (as " + first->second + ")");
   if (!added) photo.file.clear();
   return photo;
@@ -127,6 +128,7 @@ void add_photos(std::vector<FlightPhoto> photos, const AerialMappingOptions& opt
     photo.camera = cameras.camera_of[i];
     photo.prior = prior_of(input.photos[i], frame);
     photo.load = pixels.loader(photos[check.used[i]].file);
+    photo.digest = fmt::format("{}/{}", photos[check.used[i]].digest, options.max_image_px);
     input.files.push_back(photos[check.used[i]].file);
     input.set.photos.push_back(std::move(photo));
   }

@@ -39,6 +39,7 @@ struct FlightInput {
 struct FlightPhoto {
   std::filesystem::path file;
   PhotoMetadata metadata;
+  std::string digest = {};  ///< of the file's bytes
 };
 
 /// Reads tags and lists; the pixels stay in their files until the map asks for them. Throws Error

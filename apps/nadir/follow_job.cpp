@@ -6,8 +6,10 @@
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "growing_map_file.hpp"
 #include "interrupt.hpp"
 #include "nadir/aerial_mapping/incremental_mapper.hpp"
 #include "nadir/core/error.hpp"
@@ -39,13 +41,22 @@ class Arrivals {
       std::error_code gone;
       const auto size = fs::file_size(file, gone);
       if (gone || size == 0) continue;
+      if (const auto bad = refused_.find(file); bad != refused_.end() && bad->second == size) {
+        continue;
+      }
       const auto [seen, added] = seen_.try_emplace(file, Seen{size, Clock::now()});
       if (seen->second.size != size) seen->second = {size, Clock::now()};
       if (Clock::now() - seen->second.since < kStable) continue;
       ready.push_back(file);
-      taken_[file] = true;
+      taken_.insert(file);
     }
     return ready;
+  }
+
+  /// The photo was not whole: it comes again once its size has changed.
+  void refuse(const fs::path& file) {
+    taken_.erase(file);
+    refused_[file] = seen_.at(file).size;
   }
 
  private:
@@ -65,7 +76,8 @@ class Arrivals {
 
   fs::path folder_;
   std::map<fs::path, Seen> seen_;
-  std::map<fs::path, bool> taken_;
+  std::set<fs::path> taken_;
+  std::map<fs::path, std::uintmax_t> refused_;
 };
 
 /// The map that grows, and what is known of its flight.
@@ -76,27 +88,33 @@ class Growing {
     if (!options.flight.positions.empty()) positions_ = read_positions(options.flight.positions);
   }
 
-  void add(const fs::path& file) {
-    ++input_.found;
+  /// False where the photo cannot be read, or not yet.
+  bool add(const fs::path& file) {
     std::vector<FlightPhoto> photo;
     try {
       photo.push_back({file, read_photo_metadata(file)});
       check_image_is_whole(file, read_file(file));
     } catch (const Error& error) {
       skip(error.what());
-      return;
+      return false;
     }
+    ++input_.found;
     apply_positions(positions_, photo);
     std::vector<PhotoMetadata> metadata{photo.front().metadata};
     const FlightCameras cameras = cameras_of(metadata, stage_.max_image_px);
     begin(metadata.front(), cameras.cameras.front());
     add_to_map(file, metadata.front(), cameras);
+    return true;
   }
 
   bool empty() const { return input_.photos.empty(); }
   int photos() const { return static_cast<int>(input_.photos.size()); }
   const FlightInput& input() const { return input_; }
   AerialMap finish(const MappingProgress& progress) { return mapper_->finish(progress); }
+  /// Says that the map of all photos together is there; every tile may have changed.
+  void write_final(const AerialMap& map) const {
+    write_file(update_file(options_.map), update_of(map, version_ + 1, true).dump(1) + "\n");
+  }
 
  private:
   void skip(const std::string& why) {
@@ -134,21 +152,27 @@ class Growing {
     write_update(update, map, stopwatch.seconds());
   }
 
-  void write_update(const MapUpdate& update, const AerialMap& map, double seconds) const {
-    Json tiles = Json::array();
-    for (const MapTile& tile : update.changed_tiles) tiles.push_back({tile.x, tile.y});
-    const Json document{{"version", update.version},
-                        {"final", false},
-                        {"photos", photos()},
-                        {"registered", update.registered},
-                        {"provisional", update.provisional},
-                        {"west", map.ortho.geo.west},
-                        {"north", map.ortho.geo.north},
-                        {"resolution_m", map.ortho.geo.resolution},
-                        {"width_px", map.ortho.width()},
-                        {"height_px", map.ortho.height()},
-                        {"tile_px", kMapTilePx},
-                        {"changed_tiles", tiles}};
+  Json update_of(const AerialMap& map, int version, bool final) const {
+    return {{"version", version},
+            {"final", final},
+            {"photos", photos()},
+            {"west", map.ortho.geo.west},
+            {"north", map.ortho.geo.north},
+            {"resolution_m", map.ortho.geo.resolution},
+            {"width_px", map.ortho.width()},
+            {"height_px", map.ortho.height()}};
+  }
+
+  void write_update(const MapUpdate& update, const AerialMap& map, double seconds) {
+    version_ = update.version;
+    Json document = update_of(map, version_, false);
+    document["registered"] = update.registered;
+    document["provisional"] = update.provisional;
+    document["tile_px"] = kMapTilePx;
+    document["changed_tiles"] = Json::array();
+    for (const MapTile& tile : update.changed_tiles) {
+      document["changed_tiles"].push_back({tile.x, tile.y});
+    }
     write_file(update_file(options_.map), document.dump(1) + "\n");
     print_note(
         fmt::format("{}: version {}, {}{} tiles changed, {:.1f} s", input_.photos.back().name,
@@ -164,6 +188,7 @@ class Growing {
   std::vector<ListedPosition> positions_;
   FlightInput input_;
   std::unique_ptr<IncrementalMapper> mapper_;
+  int version_ = 0;
 };
 
 /// Takes photos until there are enough, none comes any more, or the user stops.
@@ -175,7 +200,7 @@ void take_photos(const MapOptions& options, Growing& growing) {
   while (!interrupted() && Clock::now() - last < idle) {
     for (const fs::path& file : arrivals.next()) {
       if (interrupted() || (options.photos > 0 && growing.photos() >= options.photos)) return;
-      growing.add(file);
+      if (!growing.add(file)) arrivals.refuse(file);
       last = Clock::now();
     }
     if (options.photos > 0 && growing.photos() >= options.photos) return;
@@ -185,15 +210,16 @@ void take_photos(const MapOptions& options, Growing& growing) {
 
 }  // namespace
 
-fs::path update_file(const fs::path& map) {
-  return map.parent_path() / (map.stem().string() + ".update.json");
-}
-
 int follow_flight(const MapOptions& options, const Invocation& invocation) {
   const CommonOptions& common = invocation.common;
   const ThreadLimit limit(common);
   const EffectiveOptions effective(options.sources);
   require_new(options.map, common);
+  if (!options.flight.control_points.empty() || !options.flight.poses.empty() ||
+      options.sfm != "nadir") {
+    throw Error(ErrorKind::kUsage, "a map in the making takes no --gcp, --poses or --sfm",
+                "--follow", "map the photos once more without --follow when the flight is over");
+  }
   if (!fs::is_directory(options.flight.photos)) {
     throw Error(ErrorKind::kInput, "there is no such folder", options.flight.photos.string());
   }
@@ -207,12 +233,7 @@ int follow_flight(const MapOptions& options, const Invocation& invocation) {
   // An interrupt ends the flight, and the final map is still made.
   const AerialMap map = growing.finish({});
   const int code = write_map(map, growing.input(), options, common);
-  Json document{{"final", true},
-                {"photos", growing.photos()},
-                {"west", map.ortho.geo.west},
-                {"north", map.ortho.geo.north},
-                {"resolution_m", map.ortho.geo.resolution}};
-  write_file(update_file(options.map), document.dump(1) + "\n");
+  growing.write_final(map);
   return interrupted() ? kInterruptedExitCode : code;
 }
 

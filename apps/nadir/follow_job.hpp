@@ -11,7 +11,4 @@ namespace nadir::cli {
 /// the exit code: that of map_flight, or 130 after an interrupt.
 int follow_flight(const MapOptions& options, const Invocation& invocation);
 
-/// MAP.update.json, which says what the last photo changed.
-std::filesystem::path update_file(const std::filesystem::path& map);
-
 }  // namespace nadir::cli

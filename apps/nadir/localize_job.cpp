@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "growing_map_file.hpp"
 #include "interrupt.hpp"
 #include "localize_inputs.hpp"
 #include "manifest_of.hpp"
@@ -110,8 +111,9 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
     ParticleKeeper particles(run_folder);
     std::vector<RunObserver*> observers{&particles};
     if (live_) observers.push_back(live_.get());
-    const RunPlan plan{map,   surface, input_.sequence,    frames_,   effective_.values(),
-                       start, seed,    use_odometry_file_, observers, input_.read};
+    const RunPlan plan{map,     surface, input_.sequence,    frames_,   effective_.values(),
+                       start,   seed,    use_odometry_file_, observers, input_.read,
+                       new_map_};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
@@ -119,6 +121,17 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
     runs.push_back(std::move(*run));
   }
   return runs;
+}
+
+void LocalizeJob::follow_map() {
+  new_map_ = [watched = std::make_shared<GrowingMapFile>(map_file_), this] {
+    auto newer = watched->newer();
+    if (newer) {
+      print_note(fmt::format("took up version {} of {}", watched->version(), map_file_.string()),
+                 invocation_.common.quiet);
+    }
+    return newer;
+  };
 }
 
 void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
@@ -168,6 +181,7 @@ int LocalizeJob::run() {
   note_device(invocation_.common);
   const Stopwatch stopwatch;
   OutputFolder output(options_.run, invocation_.common, inputs());
+  if (options_.seeds == 1 && is_growing(map_file_)) follow_map();
   const Orthomosaic map = read_orthomosaic(map_file_);
   if (options_.serve) {
     live_ = std::make_unique<LiveView>(RunSources{options_.site, map_file_}, effective_.values(),

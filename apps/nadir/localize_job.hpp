@@ -54,6 +54,8 @@ class LocalizeJob {
  private:
   std::vector<std::filesystem::path> inputs() const;
   std::vector<SeedRun> run_seeds(const Orthomosaic& map, const std::filesystem::path& folder);
+  /// The map is in the making: its new versions are taken up between frames.
+  void follow_map();
   void draw(const Orthomosaic& map, const SeedRun& run, const std::filesystem::path& folder);
   void write_summary_files(const std::vector<SeedRun>& runs, const std::filesystem::path& folder,
                            double seconds) const;
@@ -68,6 +70,7 @@ class LocalizeJob {
   std::filesystem::path map_file_;
   std::optional<std::filesystem::path> surface_file_;
   bool use_odometry_file_;
+  MapReader new_map_;  ///< empty where the map is finished
   std::vector<std::string> figures_;
   std::unique_ptr<LiveView> live_;
 };

@@ -90,6 +90,9 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
       if (const auto start = observer->new_start())
         localizer.start_near(start->pose, start->spread);
     }
+    if (plan.new_map) {
+      if (const auto map = plan.new_map()) localizer.use_map(*map);
+    }
     const Sequence::LocalMap& local_map = plan.frames[i];
     try {
       auto [record, local] = run_frame(localizer, plan, local_map);

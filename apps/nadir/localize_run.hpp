@@ -37,6 +37,9 @@ class RunObserver {
 /// Gives the frame of a local map; asked in their order.
 using FrameReader = std::function<Frame(const Sequence::LocalMap&)>;
 
+/// Gives the map where it is newer than what it gave before.
+using MapReader = std::function<std::optional<Orthomosaic>()>;
+
 /// What to run.
 struct RunPlan {
   const Orthomosaic& map;
@@ -48,7 +51,8 @@ struct RunPlan {
   std::uint64_t seed = 0;
   bool use_odometry_file = true;  ///< else the odometry is registered from the local maps
   std::vector<RunObserver*> observers = {};
-  FrameReader read = {};  ///< empty = from the files of the sequence
+  FrameReader read = {};   ///< empty = from the files of the sequence
+  MapReader new_map = {};  ///< asked before every frame; empty = the map stays
 };
 
 struct RunResult {

@@ -10,6 +10,7 @@
 
 #include "flight_poses.hpp"
 #include "interrupt.hpp"
+#include "mapping_work.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/colmap_process.hpp"
@@ -78,6 +79,26 @@ void solve_by_colmap(const MapOptions& options, const CommonOptions& common, Fli
   fs::remove_all(work);
 }
 
+/// Takes up what an interrupted mapping of these photos left beside the map.
+AerialMap map_resumably(const PhotoSet& photos, const AerialMappingOptions& options,
+                        const CommonOptions& common, MappingWork& work) {
+  try {
+    AerialMap map = map_photos(photos, options, mapping_progress(common), &work);
+    if (work.taken_up() > 0) {
+      print_note(fmt::format("took up {} features and matches from {}", work.taken_up(),
+                             work.folder().string()),
+                 common.quiet);
+    }
+    return map;
+  } catch (const Interrupted&) {
+    print_note("the same command goes on from " + work.folder().string(), common.quiet);
+    throw;
+  } catch (const Error&) {
+    work.remove();
+    throw;
+  }
+}
+
 /// "photos A..F do not join B..K", where they do not.
 std::optional<std::string> parts_of(const AdjustmentReport& report) {
   if (report.components.size() < 2) return std::nullopt;
@@ -129,6 +150,19 @@ void check_size(const AerialMappingOptions& options, const fs::path& map, Flight
                             megapixels, estimate.width_m, estimate.height_m, options.resolution_m),
                 "--gsd", "give a coarser one, or raise aerial_mapping.max_megapixels");
   }
+  // Colours, mask, views, quality and sources, and what the writers copy of them.
+  constexpr double kMemoryPerPixel = 20.0;
+  const double memory_mb = megapixels * kMemoryPerPixel;
+  const double installed_mb = 1e-6 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                              static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (memory_mb > installed_mb) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the map would need {:.0f} MB of memory ({:.0f} x {:.0f} m at {} m a "
+                            "pixel), this machine has {:.0f} MB",
+                            memory_mb, estimate.width_m, estimate.height_m, options.resolution_m,
+                            installed_mb),
+                "--gsd", "give a coarser one, or map a part of the photos");
+  }
   constexpr double kBytesPerPixel = 9.0;  // colours, mask, views, quality, before compression
   std::error_code unknown;
   const auto space = fs::space(map.has_parent_path() ? map.parent_path() : ".", unknown);
@@ -179,9 +213,12 @@ int map_flight(const MapOptions& options, const Invocation& invocation) {
     solve_by_colmap(options, common, input);
     stage.refine_given_poses = true;  // so that positions, gimbal and focal length have their say
   }
-  AerialMap map = map_photos(input.set, stage, mapping_progress(common));
+  MappingWork work(options.map);
+  AerialMap map = map_resumably(input.set, stage, common, work);
   map.report.seconds.insert(map.report.seconds.begin(), {"read", read_s});
-  return write_map(map, input, options, common);
+  const int code = write_map(std::move(map), input, options, common);
+  work.remove();
+  return code;
 }
 
 }  // namespace nadir::cli

@@ -94,7 +94,7 @@ Localizer::Localizer(const Orthomosaic& map, const LocalizerOptions& options, st
 
 Localizer::Localizer(const Orthomosaic& map, const std::optional<ElevationMap>& surface,
                      const LocalizerOptions& options, std::uint64_t seed)
-    : options_(options), filter_(options.localization, seed) {
+    : options_(options), geo_(map.geo), filter_(options.localization, seed) {
   check(options, surface.has_value());
   const Layers layers = options.matching.layers;
   if (layers != Layers::kHeight) map_.emplace(map, options.matching);
@@ -105,6 +105,16 @@ void Localizer::start_near(const Pose2& prior, const Spread& spread) {
   filter_.start_near(prior, spread);
   previous_.reset();
   weighed_ = false;
+}
+
+void Localizer::use_map(const Orthomosaic& map) {
+  constexpr double kSame = 1e-9;
+  if (map.geo.crs != geo_.crs || std::abs(map.geo.resolution - geo_.resolution) > kSame) {
+    throw Error(ErrorKind::kInput,
+                "the new version of the map has another reference system or resolution", {},
+                "start the localization anew");
+  }
+  if (map_) map_.emplace(map, options_.matching);
 }
 
 Estimate Localizer::update(const Frame& frame) {

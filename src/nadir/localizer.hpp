@@ -64,6 +64,11 @@ class Localizer {
   /// Starts the filter with particles uniform in a square and a range of headings around `prior`.
   void start_near(const Pose2& prior, const Spread& spread);
 
+  /// Goes on in another version of the map, of the same frame and resolution: particles and pose
+  /// stay where they are in metres. Throws Error (input) for a map of another frame or resolution;
+  /// nothing has changed then.
+  void use_map(const Orthomosaic& map);
+
   /// Takes one frame; frames come in the order of their stamps. Throws Error (input) for a
   /// non-finite odometry or a stamp that does not increase; Error (usage) before start_near().
   Estimate update(const Frame& frame);
@@ -86,6 +91,7 @@ class Localizer {
   std::optional<Motion2> motion_since_previous(const Frame& frame) const;
 
   LocalizerOptions options_;
+  GeoReference geo_;                 ///< of the map that it began with
   std::optional<MapIndex> map_;      ///< absent where heights alone are compared
   std::optional<MapIndex> surface_;  ///< absent where colour alone is
   ParticleFilter filter_;

@@ -162,6 +162,23 @@ TEST_F(MappingBadInputTest, FinerThanThePhotos) {
   expect(plan({"--gsd", "0.3"}), 0, {"finer than the photos"});
 }
 
+TEST_F(MappingBadInputTest, LargerThanTheMachine) {
+  for (int i = 0; i < 5; ++i) {
+    change(i, [&](Photo& photo) { photo.metadata.position->latitude_deg = 46.0 + 0.003 * i; });
+  }
+  expect(plan({"--set", "aerial_mapping.max_megapixels=0.1"}), 2,
+         {"million pixels", "coarser", "max_megapixels"});
+  // Photos that are spread over a hundred kilometres each way.
+  for (int i = 0; i < 5; ++i) {
+    change(i, [&](Photo& photo) {
+      photo.metadata.position->latitude_deg = 46.0 + 0.25 * i;
+      photo.metadata.position->longitude_deg = 8.0 + 0.7 * (i % 3);
+    });
+  }
+  expect(plan({"--gsd", "0.19", "--set", "aerial_mapping.max_megapixels=100000"}), 2,
+         {"MB of memory", "this machine has", "--gsd"});
+}
+
 TEST_F(MappingBadInputTest, ControlPointsThatCannotBe) {
   const auto gcp = [&](const std::string& text) {
     return plan({"--gcp", write_list("gcp_list.txt", text).string()});
@@ -200,6 +217,12 @@ TEST_F(MappingBadInputTest, OutputsThatCannotBe) {
          {"no such folder"});
   expect(nadir({"map", (folder_ / "none").string(), "-o", (folder_ / "map.tif").string()}), 3,
          {"none"});
+}
+
+TEST_F(MappingBadInputTest, AMapInTheMakingTakesNoControlPoints) {
+  expect(nadir({"map", (folder_ / "photos").string(), "-o", (folder_ / "map.tif").string(),
+                "--follow", "--gcp", file(0).string()}),
+         2, {"takes no --gcp", "without --follow"});
 }
 
 /// Photos without texture join nowhere: said, and nothing is written.

@@ -140,6 +140,27 @@ TEST(Localizer, SameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST(Localizer, GoesOnInANewerVersionOfTheMap) {
+  // At first the map ends at x = 12: the robot drives off it. Then its rest is there, on a grid
+  // that begins farther south-west.
+  const Orthomosaic first = render(kTexture, 120, 200, {0.0, 20.0, 0.1, {}}, Pose2{});
+  const Orthomosaic second = render(kTexture, 350, 250, {-5.0, 22.0, 0.1, {}}, Pose2{});
+  Localizer localizer(first, {}, 1);
+  localizer.start_near(truth_at(0), {2.0, radians(5)});
+  const std::vector<Frame> frames = drive(true);
+  for (int k = 0; k < kFrames; ++k) {
+    const Estimate estimate = localizer.update(frames[static_cast<std::size_t>(k)]);
+    if (k >= 2) EXPECT_LT(error(estimate, k), 0.1) << k;
+    if (k == 4) localizer.use_map(second);
+  }
+  Orthomosaic coarse = second;
+  coarse.geo.resolution = 0.2;
+  EXPECT_THROW(localizer.use_map(coarse), Error);
+  Orthomosaic elsewhere = second;
+  elsewhere.geo.crs = "another";
+  EXPECT_THROW(localizer.use_map(elsewhere), Error);
+}
+
 TEST(Localizer, ThePaperPresetRuns) {
   LocalizerOptions options = LocalizerOptions::paper();
   for (const Score score : {Score::kNcc, Score::kWncc, Score::kWnccPaper}) {
