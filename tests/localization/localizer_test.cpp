@@ -150,7 +150,9 @@ TEST(Localizer, GoesOnInANewerVersionOfTheMap) {
   const std::vector<Frame> frames = drive(true);
   for (int k = 0; k < kFrames; ++k) {
     const Estimate estimate = localizer.update(frames[static_cast<std::size_t>(k)]);
-    if (k >= 2) EXPECT_LT(error(estimate, k), 0.1) << k;
+    if (k >= 2) {
+      EXPECT_LT(error(estimate, k), 0.1) << k;
+    }
     if (k == 4) localizer.use_map(second);
   }
   Orthomosaic coarse = second;
