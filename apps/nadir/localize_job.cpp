@@ -28,6 +28,9 @@
 namespace nadir::cli {
 namespace {
 
+/// The local maps of a drive, in the run folder.
+constexpr const char* kKeptSite = "site";
+
 std::string seed_folder(std::uint64_t seed) { return "seed_" + std::to_string(seed); }
 
 /// Keeps the cloud of every frame, for the viewer.
@@ -95,6 +98,26 @@ int LocalizeJob::explain() const {
   return 0;
 }
 
+/// Reads the frames of a drive, and writes those that show something.
+FrameReader LocalizeJob::keeping_reader() {
+  return [this](const Sequence::LocalMap& local_map) {
+    Frame frame = input_.read(local_map);
+    if (frame.elevation) {
+      kept_->write_local_map(local_map.number, frame.stamp, frame.local, frame.elevation);
+      kept_any_ = true;
+    }
+    return frame;
+  };
+}
+
+void LocalizeJob::finish_kept_site() {
+  if (!kept_any_) return;
+  const Sequence& sequence = input_.sequence;
+  if (sequence.odometry) kept_->write_odometry(*sequence.odometry);
+  if (sequence.truth) kept_->write_truth(*sequence.truth);
+  kept_->finish();
+}
+
 std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
                                             const std::filesystem::path& folder) {
   const int per_seed = static_cast<int>(frames_.size());
@@ -111,13 +134,22 @@ std::vector<SeedRun> LocalizeJob::run_seeds(const Orthomosaic& map,
     ParticleKeeper particles(run_folder);
     std::vector<RunObserver*> observers{&particles};
     if (live_) observers.push_back(live_.get());
-    const RunPlan plan{map,     surface, input_.sequence,    frames_,   effective_.values(),
-                       start,   seed,    use_odometry_file_, observers, input_.read,
+    const RunPlan plan{map,
+                       surface,
+                       input_.sequence,
+                       frames_,
+                       effective_.values(),
+                       start,
+                       seed,
+                       use_odometry_file_,
+                       observers,
+                       kept_ && k == 0 ? keeping_reader() : input_.read,
                        new_map_};
     std::optional<SeedRun> run =
         run_and_judge(plan, [&](int done) { progress.update(k * per_seed + done); });
     if (!run) break;
     write_run(run_folder, run->result, run->truth);
+    write_tracks(run_folder, run->result, map.geo, input_.sequence.name);
     runs.push_back(std::move(*run));
   }
   return runs;
@@ -148,7 +180,12 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
     write_file(folder / "summary.json", to_json(*summary).dump(2) + "\n");
   }
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
-  manifest.sources = {{"site", input_.place}, {"map", map_file_}};
+  manifest.sources = {{"map", map_file_}};
+  if (kept_any_) {
+    manifest.sources.emplace_back("site", options_.run / kKeptSite);
+  } else {
+    manifest.sources.emplace_back(input_.read ? "drive" : "site", input_.place);
+  }
   if (surface_file_) manifest.sources.emplace_back("surface", *surface_file_);
   const bool partial = interrupted();
   manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
@@ -190,7 +227,11 @@ int LocalizeJob::run() {
     warn_where_open(options_.server, invocation_.common.quiet);
     print_note("watch at " + live_->url(), false);
   }
+  if (options_.keep_maps) {
+    kept_ = std::make_unique<SequenceWriter>(output.staging() / kKeptSite, input_.sequence.name);
+  }
   const std::vector<SeedRun> runs = run_seeds(map, output.staging());
+  finish_kept_site();
   if (runs.empty()) throw Interrupted{};
   draw(map, runs.front(), output.staging());
   write_summary_files(runs, output.staging(), stopwatch.seconds());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effective_options.hpp"
+#include "nadir/io/sequence.hpp"
 #include "output_folder.hpp"
 #include "seed_run.hpp"
 #include "viewer/live_view.hpp"
@@ -21,7 +22,8 @@ struct LocalizeOptions {
   std::string odometry = "auto";
   PriorOptions start;
   int seeds = 1;
-  bool serve = false;  ///< let browsers watch
+  bool keep_maps = false;  ///< of a drive: its local maps, as a site in the run folder
+  bool serve = false;      ///< let browsers watch
   double rate_hz = 0.0;
   ServerOptions server;
   OptionSources sources;
@@ -32,7 +34,9 @@ struct LocalizeInput {
   std::filesystem::path place;  ///< of the site or the drive, for errors and records
   /// A site as it was read; of a drive, one whose local maps have numbers and stamps, no files.
   Sequence sequence;
-  FrameReader read;  ///< empty = from the files of the sequence
+  /// Of a drive; asked for the same frames again with every seed. Empty = from the files of the
+  /// sequence.
+  FrameReader read;
   std::vector<std::filesystem::path> inputs;
 };
 
@@ -53,6 +57,8 @@ class LocalizeJob {
 
  private:
   std::vector<std::filesystem::path> inputs() const;
+  FrameReader keeping_reader();
+  void finish_kept_site();
   std::vector<SeedRun> run_seeds(const Orthomosaic& map, const std::filesystem::path& folder);
   /// The map is in the making: its new versions are taken up between frames.
   void follow_map();
@@ -73,6 +79,8 @@ class LocalizeJob {
   MapReader new_map_;  ///< empty where the map is finished
   std::vector<std::string> figures_;
   std::unique_ptr<LiveView> live_;
+  std::unique_ptr<SequenceWriter> kept_;  ///< the site in the run folder
+  bool kept_any_ = false;
 };
 
 }  // namespace nadir::cli

@@ -20,9 +20,9 @@ RunJob::RunJob(const DriveOptionsOfVerb& drive, const LocalizeOptions& options,
     : invocation_(invocation),
       drive_(open_drive(drive.input, drive.reading)),
       mapping_(drive_, mapping_options(drive, EffectiveOptions(options.sources), false)),
-      localizing_(input_of(drive.input), options, invocation, threads) {}
+      localizing_(input_of(drive.input, options.seeds), options, invocation, threads) {}
 
-LocalizeInput RunJob::input_of(const std::filesystem::path& place) {
+LocalizeInput RunJob::input_of(const std::filesystem::path& place, int seeds) {
   LocalizeInput input{place, {}, {}, drive_.inputs};
   input.sequence.folder = place;
   input.sequence.name = drive_.name;
@@ -36,11 +36,19 @@ LocalizeInput RunJob::input_of(const std::filesystem::path& place) {
   }
   input.sequence.odometry = std::move(odometry);
   if (drive_.truth) input.sequence.truth = read_tum(*drive_.truth);
-  input.read = [this](const Sequence::LocalMap& local_map) { return read(local_map); };
+  input.read = [this, seeds](const Sequence::LocalMap& local_map) {
+    return seeds == 1 ? map(local_map) : map_once(local_map);
+  };
   return input;
 }
 
-Frame RunJob::read(const Sequence::LocalMap& local_map) {
+Frame RunJob::map_once(const Sequence::LocalMap& local_map) {
+  const auto known = mapped_.find(local_map.number);
+  if (known != mapped_.end()) return known->second;
+  return mapped_.emplace(local_map.number, map(local_map)).first->second;
+}
+
+Frame RunJob::map(const Sequence::LocalMap& local_map) {
   // The first frames may have been left out: a start at the truth begins where there is one.
   while (drive_.frames[mapping_.due()[next_]].number != local_map.number) ++next_;
   const auto rendered = mapping_.map_at(mapping_.due()[next_]);

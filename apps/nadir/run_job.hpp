@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+
 #include "ground_job.hpp"
 #include "localize_job.hpp"
 
@@ -19,13 +21,15 @@ class RunJob {
   int run();
 
  private:
-  LocalizeInput input_of(const std::filesystem::path& place);
-  Frame read(const Sequence::LocalMap& local_map);
+  LocalizeInput input_of(const std::filesystem::path& place, int seeds);
+  Frame map(const Sequence::LocalMap& local_map);
+  Frame map_once(const Sequence::LocalMap& local_map);
 
   const Invocation& invocation_;
   Drive drive_;
   DriveMapping mapping_;
-  std::size_t next_ = 0;  ///< of the local maps that are due
+  std::size_t next_ = 0;         ///< of the local maps that are due
+  std::map<int, Frame> mapped_;  ///< by number, where several seeds ask for them
   LocalizeJob localizing_;
 };
 

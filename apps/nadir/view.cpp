@@ -39,7 +39,7 @@ int run(const ViewOptions& options, const Invocation& invocation) {
 void add_view(CLI::App& program, Invocation& invocation) {
   auto [verb, options] =
       add_verb<ViewOptions>(program, invocation, "view", "Look at a run in a browser", run);
-  verb->add_option("run", options.run, "Run folder, of `nadir localize`")
+  verb->add_option("run", options.run, "Run folder, of `nadir localize` or `nadir run`")
       ->type_name("RUN")
       ->required();
   verb->add_option("--site", options.sources.site, "Site folder, where it has moved")

@@ -81,7 +81,51 @@ TEST(Run, JoinsMappingAndLocalizing) {
   EXPECT_LT(document["evaluation"]["ape_trans_m"]["rmse"], 0.15) << document.dump(1);
   EXPECT_TRUE(fs::exists(run / "trajectory.tum"));
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
-  EXPECT_FALSE(fs::exists(run / "local")) << "nothing in between is written";
+  EXPECT_FALSE(fs::exists(run / "site")) << "nothing in between is written";
+  EXPECT_EQ(Json::parse(read_file(run / "manifest.json"))["sources"]["drive"],
+            small_drive().string());
+}
+
+/// What is kept is what `nadir ground` writes, and one mapping serves all seeds.
+TEST(Run, KeepsItsLocalMapsAndRunsSeveralSeeds) {
+  const fs::path site = scratch_folder() / "to_compare";
+  const fs::path run = scratch_folder() / "seeds";
+  const std::vector<std::string> mapping{"--every", "4f", "--size", "12"};
+  std::vector<std::string> ground{"ground", small_drive().string(), "-o", site.string()};
+  ground.insert(ground.end(), mapping.begin(), mapping.end());
+  json_of(ground);
+  std::vector<std::string> both{"run",
+                                small_drive().string(),
+                                "-o",
+                                run.string(),
+                                "--map",
+                                small_drive_map().string(),
+                                "--prior",
+                                "truth",
+                                "--prior-spread",
+                                "1,2",
+                                "--seed",
+                                "0",
+                                "--seeds",
+                                "2",
+                                "--keep-maps"};
+  both.insert(both.end(), mapping.begin(), mapping.end());
+  const Json document = json_of(both);
+  EXPECT_EQ(document["runs"].size(), 2U);
+  EXPECT_TRUE(fs::exists(run / "seed_0" / "trajectory.tum"));
+  EXPECT_NE(read_file(run / "seed_0" / "trajectory.tum"),
+            read_file(run / "seed_1" / "trajectory.tum"));
+  const Json sources = Json::parse(read_file(run / "manifest.json"))["sources"];
+  EXPECT_EQ(sources["site"], (run / "site").string());
+  const Sequence kept = read_sequence(run / "site");
+  const Sequence written = read_sequence(site);
+  ASSERT_EQ(kept.local_maps.size(), written.local_maps.size());
+  for (std::size_t i = 0; i < kept.local_maps.size(); ++i) {
+    EXPECT_EQ(read_file(kept.local_maps[i].image), read_file(written.local_maps[i].image));
+    EXPECT_EQ(read_file(*kept.local_maps[i].elevation),
+              read_file(*written.local_maps[i].elevation));
+  }
+  EXPECT_EQ(kept.truth->size(), written.truth->size());
 }
 
 /// The local map shows the ground where the ground is.

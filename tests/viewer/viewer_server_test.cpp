@@ -19,6 +19,7 @@
 #include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
+#include "run_files.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nadir::cli {
@@ -162,6 +163,27 @@ TEST_F(ViewerServerTest, GivesParticlesTilesLocalAndHeatMaps) {
   // The local map is a copy, but its high-pass knows nothing of what lies beyond its edge.
   EXPECT_GT(heat["highest"].get<double>(), 0.8);
   EXPECT_LT(heat["lowest"].get<double>(), 0.5);
+}
+
+/// `nadir run` maps a drive on the way: where it kept no local maps, there are none to show.
+TEST_F(ViewerServerTest, ARunWithoutASiteIsShownWithoutLocalMaps) {
+  RunResult result;
+  for (int i = 0; i < kFrames; ++i) {
+    result.records.push_back({i, {Stamp{i * kSecond}, {25.0 + i, 15.0, 0.0}, {}}, 0.0, 0.0});
+  }
+  write_run(folder_ / "run", result, {});
+  const Json sources{{"drive", (folder_ / "campus_3/").string()},
+                     {"map", (folder_ / "site/map.tif").string()}};
+  test::write_text(folder_ / "run/manifest.json", Json{{"sources", sources}}.dump());
+  const auto view = RunView::open(folder_ / "run", {});
+  const Json document = view->document();
+  EXPECT_EQ(document["name"], "campus_3");
+  EXPECT_EQ(document["frames"].size(), std::size_t{kFrames});
+  EXPECT_TRUE(document["odometry"].empty());
+  EXPECT_FALSE(view->local_map(0));
+  EXPECT_FALSE(view->heat_map(0));
+  // Where a site is given, it is shown.
+  EXPECT_TRUE(RunView::open(folder_ / "run", {folder_ / "site", {}})->local_map(1));
 }
 
 TEST_F(ViewerServerTest, ServesThePageWithAStrictPolicy) {

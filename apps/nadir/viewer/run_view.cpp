@@ -80,6 +80,12 @@ fs::path source(const Json& manifest, const char* role, const fs::path& given,
   throw Error(ErrorKind::kInput, what, run.string(), std::string("give --") + role);
 }
 
+/// The site of a run; empty of one that mapped its drive on the way and kept no local maps.
+fs::path site_of(const Json& manifest, const fs::path& given, const fs::path& run) {
+  const bool drive = manifest.value("sources", Json::object()).contains("drive");
+  return given.empty() && drive ? fs::path{} : source(manifest, "site", given, run);
+}
+
 /// The matching options of the run; one that this version does not know is left at its default.
 LocalizerOptions options_of(const Json& manifest) {
   LocalizerOptions options;
@@ -97,7 +103,7 @@ LocalizerOptions options_of(const Json& manifest) {
 RunView::RunView(const RunSources& sources, const LocalizerOptions& options,
                  const fs::path& particle_file, bool live)
     : sources_(sources),
-      sequence_(read_sequence(sources.site)),
+      sequence_(sources.site.empty() ? Sequence{} : read_sequence(sources.site)),
       options_(options),
       particle_file_(particle_file),
       tiles_(std::make_unique<MapTiles>(sources.map)),
@@ -109,11 +115,15 @@ std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) 
                 "give a folder that `nadir localize` wrote");
   }
   const Json manifest = read_manifest(run);
-  sources.site = source(manifest, "site", sources.site, run);
+  sources.site = site_of(manifest, sources.site, run);
   sources.map = source(manifest, "map", sources.map, run);
   const fs::path folder = first_run_in(run);
   auto view =
       std::make_unique<RunView>(sources, options_of(manifest), folder / "particles.bin", false);
+  if (sources.site.empty()) {
+    const fs::path drive = manifest["sources"].value("drive", std::string{});
+    view->sequence_.name = (drive / "").parent_path().filename().string();
+  }
   const Json settings{{"version", manifest.value("version", "")},
                       {"arguments", manifest.value("arguments", Json::array())},
                       {"started", manifest.value("started", "")},

@@ -19,6 +19,7 @@ namespace nadir::cli {
 
 /// Where a run was made, for the pictures that belong to it.
 struct RunSources {
+  /// Empty where there is none: then no local map, truth, odometry or heat map is shown.
   std::filesystem::path site;
   std::filesystem::path map;
 };
