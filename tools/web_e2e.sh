@@ -13,6 +13,5 @@ if [[ -n "$shots" ]]; then
   shots="$(cd "$shots" && pwd)"
 fi
 "$program" demo --quick -o "$work/demo" -q >/dev/null
-site="$(dirname "$(find "$work/demo" -name sequence.yaml | sort | head -n 1)")"
-"$program" localize "$site" -o "$work/run" --prior truth -q >/dev/null
-CHROMIUM="$(command -v chromium)" node web/e2e/viewer.mjs "$program" "$site" "$work/run" ${shots:+"$shots"}
+CHROMIUM="$(command -v chromium)" node web/e2e/viewer.mjs "$program" "$work/demo/drive" "$work/demo/run" \
+  ${shots:+"$shots"}

@@ -10,7 +10,7 @@
 #include "nadir/io/gdal_info.hpp"
 #include "nadir/localizer.hpp"
 #include "nadir/map_matching/cuda_status.hpp"
-#include "nadir/simulation/drive.hpp"
+#include "nadir/simulation/simulated_drive.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
 
@@ -77,19 +77,29 @@ std::vector<Check> check_host() {
 
 Check check_core_path() {
   const Stopwatch stopwatch;
-  DriveOptions drive;
-  drive.frames = 5;
-  const SimulatedSite site = simulate_drive(1, drive);
-  Localizer localizer(site.map, LocalizerOptions{}, 1);
-  localizer.start_near(site.truth.front().pose, Spread{1.0, radians(2.0)});
+  WorldOptions place;
+  place.width_m = place.depth_m = 50.0;
+  place.margin_m = 0.0;
+  place.texel_m = 0.10;
+  const SimulatedWorld world = SimulatedWorld::make(1, place);
+  const Orthomosaic map = world.seen(flight_appearance())
+                              .true_orthomosaic({0.0, place.depth_m, place.texel_m, {}}, 500, 500);
+  RouteOptions route;
+  route.frames = 5;
+  const SimulatedDrive drive(world, world.seen(drive_appearance()), route, 1);
+
+  Localizer localizer(map, LocalizerOptions{}, 1);
+  localizer.start_near(planar(drive.map_from_robot(0)), Spread{1.0, radians(2.0)});
   Estimate estimate;
-  for (const Frame& frame : site.frames) estimate = localizer.update(frame);
-  const Pose2& truth = site.truth.back().pose;
+  for (int frame = 0; frame < drive.size(); ++frame) {
+    estimate = localizer.update(drive.true_local(frame, {}));
+  }
+  const Pose2 truth = planar(drive.map_from_robot(drive.size() - 1));
   const double error_m =
       std::hypot(estimate.map_from_robot.x - truth.x, estimate.map_from_robot.y - truth.y);
   return {"core path", error_m < 1.0, true,
-          fmt::format("{} simulated frames localized in {:.1f} s, error {:.2f} m",
-                      site.frames.size(), stopwatch.seconds(), error_m)};
+          fmt::format("{} simulated frames localized in {:.1f} s, error {:.2f} m", drive.size(),
+                      stopwatch.seconds(), error_m)};
 }
 
 }  // namespace nadir::cli

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "add_verb.hpp"
+#include "demo_plan.hpp"
 #include "demo_report.hpp"
-#include "demo_site.hpp"
-#include "effective_options.hpp"
 #include "interrupt.hpp"
 #include "manifest_of.hpp"
-#include "nadir/core/error.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
 #include "output_folder.hpp"
-#include "progress.hpp"
-#include "run_figures.hpp"
-#include "run_files.hpp"
-#include "seed_run.hpp"
-#include "site.hpp"
+#include "run_report.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
+#include "verb_call.hpp"
 #include "verbs.hpp"
 
 namespace nadir::cli {
@@ -29,73 +23,85 @@ namespace fs = std::filesystem;
 
 struct DemoOptions {
   fs::path output = "out/demo";
+  bool quick = false;
 };
 
-SeedRun run_way(const Way& way, const Orthomosaic& map, const Sequence& sequence,
-                const fs::path& folder, const Invocation& invocation) {
-  OptionSources sources;
-  sources.preset = way.preset;
-  sources.sets = {std::string("map_matching.score=") + way.score};
-  EffectiveOptions options(sources);
-  options.use_device(invocation.common.device);
-  const std::uint64_t seed = invocation.common.seed;
-  const Prior start = start_of({"truth", "5,5"}, *sequence.truth, seed);
-  Progress progress(std::string("localizing, ") + way.name,
-                    static_cast<int>(sequence.local_maps.size()), invocation.common);
-  std::optional<SeedRun> run =
-      run_and_judge({map, std::nullopt, sequence, sequence.local_maps, options.values(), start,
-                     seed, sequence.odometry.has_value()},
-                    [&](int done) { progress.update(done); });
-  stop_if_interrupted();
-  write_run(folder, run->result, run->truth);
-  draw_run(folder, {map, run->result, run->truth, &run->judgement->evaluation, way.name});
-  Manifest manifest = manifest_of(invocation, 1, {});
-  manifest.stages.push_back({"localize", run->result.update_s()});
-  write_manifest(folder, manifest, options.table(), options.origins());
-  return std::move(*run);
+/// The demo talks while it goes on; a JSON document stands alone.
+void say(const std::string& text, const CommonOptions& common) {
+  if (!common.json) print(text);
+}
+
+/// Replaces an old demo by an empty folder: from here on every command writes a folder of its own.
+void clear(const fs::path& folder, const Manifest& manifest, const CommonOptions& common) {
+  OutputFolder output(folder, common, {});
+  write_manifest(output.staging(), manifest, OptionTable{});
+  output.commit();
+}
+
+DemoResult run_steps(const DemoPlan& plan, const CommonOptions& common) {
+  DemoResult result;
+  for (const DemoStep& step : plan.steps) {
+    stop_if_interrupted();
+    say(command_line(step.arguments) + "\n", common);
+    const Stopwatch stopwatch;
+    const Json document = call_verb(step.arguments, common);
+    const double seconds = stopwatch.seconds();
+    result.add(step, document, seconds);
+    say(fmt::format("  {:5.1f} s  {}\n", seconds, in_words(step, document)), common);
+  }
+  return result;
 }
 
 int run(const DemoOptions& options, const Invocation& invocation) {
-  require_device(invocation.common);
-  const ThreadLimit limit(invocation.common);
-  require_writable(options.output, invocation.common, {});
-  explain_demo(options.output.string(), invocation);
-  if (invocation.common.dry_run) {
-    if (invocation.common.json) print(Json{{"dry_run", true}, {"output", options.output.string()}});
+  const CommonOptions& common = invocation.common;
+  require_device(common);
+  const ThreadLimit limit(common);
+  require_writable(options.output, common, {});
+  const std::string out = options.output.string();
+  const DemoPlan plan = plan_demo(out, options.quick, common.seed);
+  for (const std::string& stage : plan.stand_ins) {
+    say(stage + ": this build cannot do it (nadir doctor); its true product stands in\n", common);
+  }
+  if (common.dry_run) {
+    Json commands = Json::array();
+    for (const DemoStep& step : plan.steps) {
+      commands.push_back(command_line(step.arguments));
+      say(commands.back().get<std::string>() + "\n", common);
+    }
+    if (common.json) print(Json{{"dry_run", true}, {"output", out}, {"commands", commands}});
     return 0;
   }
-  note_device(invocation.common);
-  const Stopwatch stopwatch;
-  OutputFolder output(options.output, invocation.common, {});
-  write_demo_site(output.staging() / "site", invocation.common.seed);
-  const Sequence sequence = read_sequence(output.staging() / "site");
-  const Orthomosaic map = read_orthomosaic(map_path(sequence, {}));
-  std::vector<SeedRun> runs;
-  for (const Way& way : kWays) {
-    runs.push_back(run_way(way, map, sequence, output.staging() / way.folder, invocation));
-  }
+  note_device(common);
   Manifest manifest = manifest_of(invocation, limit.threads(), {});
-  manifest.stages.push_back({"demo", stopwatch.seconds()});
-  write_manifest(output.staging(), manifest, OptionTable{});
-  output.commit();
-  report_demo(runs, options.output.string(), invocation);
+  clear(options.output, manifest, common);
+  DemoResult result = run_steps(plan, common);
+  for (const auto& [stage, seconds] : result.stages) manifest.stages.push_back({stage, seconds});
+  write_manifest(options.output, manifest, OptionTable{});
+  result.report = write_run_report(options.output).string();
+  common.json ? print(to_json(result, plan, out)) : print(to_text(result, plan, out));
   return 0;
 }
 
 }  // namespace
 
 void add_demo(CLI::App& program, Invocation& invocation) {
-  auto [verb, options] = add_verb<DemoOptions>(
-      program, invocation, "demo", "Simulate a drive, localize it three ways, compare", run);
+  auto [verb, options] =
+      add_verb<DemoOptions>(program, invocation, "demo",
+                            "Simulate a place, map it, drive through it, compare methods", run);
   verb->add_option("-o,--output", options.output, "Folder to write")
       ->type_name("OUT")
       ->capture_default_str();
+  verb->add_flag("--quick", options.quick, "A smaller flight and a shorter drive");
   add_writing_options(*verb, invocation.common);
   add_computing_options(*verb, invocation.common);
   verb->footer(
       "Examples:\n"
       "  nadir demo\n"
-      "  nadir demo -o /tmp/demo --seed 3 --overwrite\n");
+      "  nadir demo --quick -o /tmp/demo --seed 3 --overwrite\n"
+      "A drone's photos and a robot's stereo pairs are simulated with their truth; then every "
+      "stage\n"
+      "runs as the printed commands would: map, ground, match, localize with several methods, "
+      "eval.\n");
 }
 
 }  // namespace nadir::cli

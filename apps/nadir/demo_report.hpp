@@ -1,31 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "invocation.hpp"
-#include "seed_run.hpp"
+#include "demo_plan.hpp"
+#include "streams.hpp"
 
 namespace nadir::cli {
 
-/// A way to localize, as a user would ask for it.
-struct Way {
-  const char* name;
-  const char* folder;
-  const char* preset;
-  const char* score;
+/// What the demo's commands gave.
+struct DemoResult {
+  std::vector<std::pair<std::string, double>> stages;  ///< seconds, in the order of the pipeline
+  std::vector<Json> judged;                            ///< of `nadir eval`, one a method
+  std::string report;                                  ///< the file to look at first
+
+  void add(const DemoStep& step, const Json& document, double seconds);
 };
-inline constexpr std::array<Way, 3> kWays{{{"ncc + PF", "run_ncc", "paper", "ncc"},
-                                           {"wncc + PF (the paper's)", "run_wncc", "paper", "wncc"},
-                                           {"nadir", "run", "default", "zwncc"}}};
 
-/// The same commands that a user would type, with their own outputs; `out` is the demo's folder.
-void explain_demo(const std::string& out, const Invocation& invocation);
+/// What came of one command, in a few words.
+std::string in_words(const DemoStep& step, const Json& document);
 
-/// The table, or the JSON document, of one run a way.
-void report_demo(const std::vector<SeedRun>& runs, const std::string& out,
-                 const Invocation& invocation);
+/// The methods in one table, and where the pictures are.
+std::string to_text(const DemoResult& result, const DemoPlan& plan, const std::string& out);
+Json to_json(const DemoResult& result, const DemoPlan& plan, const std::string& out);
 
 }  // namespace nadir::cli

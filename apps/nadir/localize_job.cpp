@@ -170,7 +170,11 @@ void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
                        const std::filesystem::path& folder) {
   const Evaluation* evaluation = run.judgement ? &run.judgement->evaluation : nullptr;
   const std::string title = fmt::format("{}, seed {}", input_.sequence.name, run.seed);
-  figures_ = draw_run(folder, {map, run.result, run.truth, evaluation, title});
+  Trajectory odometry;
+  if (use_odometry_file_) {
+    odometry = odometry_alone(*input_.sequence.odometry, run.result, run.truth);
+  }
+  figures_ = draw_run(folder, {map, run.result, run.truth, std::move(odometry), evaluation, title});
 }
 
 void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,

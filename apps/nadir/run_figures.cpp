@@ -49,9 +49,24 @@ std::vector<Comparison> comparisons_of(const RunResult& result) {
 
 }  // namespace
 
+Trajectory odometry_alone(const Odometry& odometry, const RunResult& result,
+                          const Trajectory& truth) {
+  const Trajectory estimated = result.trajectory();
+  const auto& first = truth.empty() ? estimated.front() : truth.front();
+  Trajectory alone;
+  std::optional<Transform2<frames::Map, frames::Odom>> map_from_odom;
+  for (const auto& [stamp, odom_from_robot] : odometry) {
+    if (stamp < first.stamp || stamp > estimated.back().stamp) continue;
+    if (!map_from_odom) map_from_odom = first.pose * odom_from_robot.inverse();
+    alone.push_back({stamp, *map_from_odom * odom_from_robot});
+  }
+  return alone;
+}
+
 std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures) {
   std::vector<Track> tracks{{"estimate", figures.result.trajectory()}};
   if (!figures.truth.empty()) tracks.push_back({"truth", figures.truth});
+  if (!figures.odometry.empty()) tracks.push_back({"odometry alone", figures.odometry});
   std::vector<std::string> names{"trajectory.png", "swarm.png", "comparison.png", "coverage.png",
                                  "diagnostics.png"};
   write_png(folder / names[0], draw_trajectories(figures.map, tracks, figures.title));

@@ -14,9 +14,15 @@ struct RunFigures {
   const Orthomosaic& map;
   const RunResult& result;
   const Trajectory& truth;       ///< may be empty
+  Trajectory odometry;           ///< alone, from the start on; may be empty
   const Evaluation* evaluation;  ///< where there is a truth
   std::string title;
 };
+
+/// Where the odometry alone would have led over the frames of a run, from their first true pose or,
+/// without a truth, from the first estimate.
+Trajectory odometry_alone(const Odometry& odometry, const RunResult& result,
+                          const Trajectory& truth);
 
 /// Draws trajectory.png, swarm.png, comparison.png, coverage.png, diagnostics.png and, where there
 /// is a truth, error.png into the folder; returns their names.

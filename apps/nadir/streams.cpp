@@ -10,6 +10,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "captured_output.hpp"
 #include "nadir/core/error.hpp"
 
 namespace nadir::cli {
@@ -21,6 +22,9 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
+/// Where print() goes instead of standard output.
+std::string* captured = nullptr;
+
 bool colours_wanted() {
   const char* no_color = std::getenv("NO_COLOR");
   return isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
@@ -28,7 +32,14 @@ bool colours_wanted() {
 
 }  // namespace
 
+CapturedOutput::CapturedOutput() { captured = &text_; }
+CapturedOutput::~CapturedOutput() { captured = nullptr; }
+
 void print(const std::string& text) {
+  if (captured != nullptr) {
+    *captured += text;
+    return;
+  }
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) return;

@@ -4,21 +4,31 @@
 #include <iostream>
 
 #include "nadir/localizer.hpp"
-#include "nadir/simulation/drive.hpp"
+#include "nadir/simulation/simulated_drive.hpp"
 
 int main() {
-  nadir::DriveOptions drive;
-  drive.frames = 5;
-  const nadir::SimulatedSite site = nadir::simulate_drive(7, drive);
+  nadir::WorldOptions place;
+  place.width_m = 60.0;
+  place.depth_m = 50.0;
+  place.margin_m = 5.0;
+  const auto world = nadir::SimulatedWorld::make(7, place);
+  const nadir::Orthomosaic map = world.seen(nadir::flight_appearance())
+                                     .true_orthomosaic({0.0, place.depth_m, 0.10, {}}, 600, 500);
+  nadir::RouteOptions route;
+  route.frames = 5;
+  const nadir::SimulatedDrive drive(world, world.seen(nadir::drive_appearance()), route, 7);
 
-  nadir::Localizer localizer{site.map, nadir::LocalizerOptions{}, 1};
-  localizer.start_near(site.truth.front().pose, {.position_m = 1.0, .yaw_rad = 0.02});
+  nadir::Localizer localizer{map, nadir::LocalizerOptions{}, 1};
+  localizer.start_near(nadir::planar(drive.map_from_robot(0)),
+                       {.position_m = 1.0, .yaw_rad = 0.02});
   nadir::Estimate estimate;
-  for (const nadir::Frame& frame : site.frames) estimate = localizer.update(frame);
+  for (int frame = 0; frame < drive.size(); ++frame) {
+    estimate = localizer.update(drive.true_local(frame, {}));
+  }
 
-  const nadir::Pose2& truth = site.truth.back().pose;
+  const nadir::Pose2 truth = nadir::planar(drive.map_from_robot(drive.size() - 1));
   const double error_m =
       std::hypot(estimate.map_from_robot.x - truth.x, estimate.map_from_robot.y - truth.y);
-  std::cout << "off by " << error_m << " m after " << site.frames.size() << " frames\n";
+  std::cout << "off by " << error_m << " m after " << drive.size() << " frames\n";
   return error_m < 1.0 ? 0 : 1;
 }

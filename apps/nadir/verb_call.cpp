@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verb_call.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "all_verbs.hpp"
+#include "captured_output.hpp"
+#include "interrupt.hpp"
+#include "nadir/core/error.hpp"
+
+namespace nadir::cli {
+
+std::string command_line(const std::vector<std::string>& arguments) {
+  std::string line = "nadir";
+  for (const std::string& argument : arguments) line += " " + argument;
+  return line;
+}
+
+Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& common) {
+  CLI::App program{"", "nadir"};
+  Invocation invocation;
+  invocation.arguments = arguments;
+  invocation.common.json = true;
+  invocation.common.quiet = true;
+  invocation.common.threads = common.threads;
+  invocation.common.device = common.device;
+  add_all_verbs(program, invocation);
+  const CapturedOutput output;
+  // CLI11 takes a vector from its end.
+  program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  const int exit_code = invocation.action();
+  if (exit_code == kInterruptedExitCode) throw Interrupted{};
+  if (exit_code != 0) {
+    throw Error(ErrorKind::kProcessing, "ended with exit code " + std::to_string(exit_code),
+                command_line(arguments));
+  }
+  return Json::parse(output.text());
+}
+
+}  // namespace nadir::cli
