@@ -98,7 +98,8 @@ TEST(ResultTest, AReportIsWrittenAnewAndElsewhere) {
   EXPECT_EQ(json_of({"report", run})["report"], run + "/report.html");
   EXPECT_EQ(read_file(fs::path(run) / "report.html"), first);
   const std::string page = scratch("page.html");
-  EXPECT_EQ(json_of({"report", run, "-o", page})["bytes"], fs::file_size(page));
+  const Json written = json_of({"report", run, "-o", page});
+  EXPECT_EQ(written["bytes"], fs::file_size(page));
   EXPECT_NE(nadir({"report", run, "-o", page}).exit_code, 0);
   EXPECT_EQ(nadir({"report", run, "-o", page, "--overwrite"}).exit_code, 0);
 }
