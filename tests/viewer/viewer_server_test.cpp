@@ -169,7 +169,8 @@ TEST_F(ViewerServerTest, GivesParticlesTilesLocalAndHeatMaps) {
 TEST_F(ViewerServerTest, ARunWithoutASiteIsShownWithoutLocalMaps) {
   RunResult result;
   for (int i = 0; i < kFrames; ++i) {
-    result.records.push_back({i, {Stamp{i * kSecond}, {25.0 + i, 15.0, 0.0}, {}}, 0.0, 0.0});
+    const Estimate estimate{Stamp{i * kSecond}, {25.0 + i, 15.0, 0.0}, PoseCovariance::Identity()};
+    result.records.push_back({i, estimate, 0.0, 0.0});
   }
   write_run(folder_ / "run", result, {});
   const Json sources{{"drive", (folder_ / "campus_3/").string()},
