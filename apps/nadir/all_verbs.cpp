@@ -10,9 +10,9 @@ namespace nadir::cli {
 namespace {
 
 constexpr std::array kVerbs{
-    add_simulate,   add_map,  add_convert, add_ground,  add_info,   add_match,
-    add_localize,   add_run,  add_eval,    add_demo,    add_doctor, add_config,
-    add_completion, add_view, add_report,  add_version,
+    add_simulate, add_map,    add_convert,    add_ground,  add_info,   add_match,
+    add_localize, add_run,    add_eval,       add_demo,    add_doctor, add_config,
+    add_view,     add_report, add_completion, add_version,
 };
 
 }  // namespace

@@ -88,11 +88,14 @@ Check check_core_path() {
   route.frames = 5;
   const SimulatedDrive drive(world, world.seen(drive_appearance()), route, 1);
 
+  LocalTruthOptions all_around;
+  all_around.only_seen = false;
+
   Localizer localizer(map, LocalizerOptions{}, 1);
   localizer.start_near(planar(drive.map_from_robot(0)), Spread{1.0, radians(2.0)});
   Estimate estimate;
   for (int frame = 0; frame < drive.size(); ++frame) {
-    estimate = localizer.update(drive.true_local(frame, {}));
+    estimate = localizer.update(drive.true_local(frame, all_around));
   }
   const Pose2 truth = planar(drive.map_from_robot(drive.size() - 1));
   const double error_m =

@@ -10,7 +10,6 @@
 #include "interrupt.hpp"
 #include "manifest_of.hpp"
 #include "output_folder.hpp"
-#include "run_report.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
 #include "verb_call.hpp"
@@ -74,10 +73,9 @@ int run(const DemoOptions& options, const Invocation& invocation) {
   note_device(common);
   Manifest manifest = manifest_of(invocation, limit.threads(), {});
   clear(options.output, manifest, common);
-  DemoResult result = run_steps(plan, common);
+  const DemoResult result = run_steps(plan, common);
   for (const auto& [stage, seconds] : result.stages) manifest.stages.push_back({stage, seconds});
   write_manifest(options.output, manifest, OptionTable{});
-  result.report = write_run_report(options.output).string();
   common.json ? print(to_json(result, plan, out)) : print(to_text(result, plan, out));
   return 0;
 }

@@ -91,6 +91,7 @@ DemoPlan plan_demo(const std::string& out, bool quick, std::uint64_t number) {
     plan.steps.push_back(
         {"eval", {"eval", run + "/trajectory.tum", "--truth", out + "/drive/truth.tum"}});
   }
+  plan.steps.push_back({"report", {"report", out}});
   return plan;
 }
 

@@ -19,7 +19,7 @@ const std::vector<DemoMethod>& demo_methods();
 
 /// One command of the demo, and the stage that it belongs to.
 struct DemoStep {
-  std::string stage;  ///< simulate, map, ground, match, localize, eval
+  std::string stage;  ///< simulate, map, ground, match, localize, eval, report
   std::vector<std::string> arguments;
 };
 

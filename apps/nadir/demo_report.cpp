@@ -38,6 +38,7 @@ void DemoResult::add(const DemoStep& step, const Json& document, double seconds)
     known->second += seconds;
   }
   if (step.stage == "eval") judged.push_back(document);
+  if (step.stage == "report") report = document["report"].get<std::string>();
 }
 
 std::string in_words(const DemoStep& step, const Json& document) {
@@ -63,6 +64,7 @@ std::string in_words(const DemoStep& step, const Json& document) {
     return fmt::format("{} frames, {:.1f} a second", document["frames"].get<int>(),
                        number(document["localize_frames_per_s"]));
   }
+  if (step.stage == "report") return document["report"].get<std::string>();
   return fmt::format("{:.3f} m, {:.2f} degrees (RMSE)", number(document["ape_trans_m"]["rmse"]),
                      number(document["yaw_deg"]["rmse"]));
 }

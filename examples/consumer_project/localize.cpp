@@ -23,7 +23,7 @@ int main() {
                        {.position_m = 1.0, .yaw_rad = 0.02});
   nadir::Estimate estimate;
   for (int frame = 0; frame < drive.size(); ++frame) {
-    estimate = localizer.update(drive.true_local(frame, {}));
+    estimate = localizer.update(drive.true_local(frame, {.only_seen = false}));
   }
 
   const nadir::Pose2 truth = nadir::planar(drive.map_from_robot(drive.size() - 1));
