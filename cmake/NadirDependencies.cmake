@@ -4,7 +4,9 @@
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-if(NADIR_TBB_STAND_IN)  # the tsan preset: tools/tsan/include/tbb/stand_in.h says why
+# The tsan preset: tools/tsan/include/tbb/stand_in.h says why. Ceres brings the real oneTBB, so that
+# the stand-in goes with NADIR_WITH_SFM=OFF.
+if(NADIR_TBB_STAND_IN)
   add_library(TBB::tbb INTERFACE IMPORTED)
   target_include_directories(TBB::tbb INTERFACE ${PROJECT_SOURCE_DIR}/tools/tsan/include)
   target_link_libraries(TBB::tbb INTERFACE Threads::Threads)

@@ -28,9 +28,8 @@ constexpr int kNeighbours = 7;           // a new photo is matched with
 class IncrementalMapper::State {
  public:
   State(PhotoSet frame, const AerialMappingOptions& options)
-      : photos(std::move(frame)), options_(options), pipeline_(options) {
+      : photos(std::move(frame)), options_(options), quick_(options), pipeline_(options) {
     photos.photos.clear();
-    quick_ = options;
     if (quick_.blend == BlendKind::kMultiBand) quick_.blend = BlendKind::kFeather;
     quick_.gps_neighbours = kNeighbours;
   }

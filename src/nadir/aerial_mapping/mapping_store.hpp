@@ -14,6 +14,8 @@ class MappingStore {
   MappingStore() = default;
   MappingStore(const MappingStore&) = delete;
   MappingStore& operator=(const MappingStore&) = delete;
+  MappingStore(MappingStore&&) = delete;
+  MappingStore& operator=(MappingStore&&) = delete;
   virtual ~MappingStore() = default;
 
   virtual std::optional<std::string> find(const std::string& key) = 0;

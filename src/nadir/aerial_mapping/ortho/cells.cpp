@@ -104,7 +104,7 @@ cv::Mat best_view(const std::vector<ViewCells>& cells, const CellGrid& grid, cv:
     for (int row = 0; row < cells[k].rect.height; ++row)
       for (int column = 0; column < cells[k].rect.width; ++column) {
         const float cost = cells[k].cost.at<float>(row, column);
-        float& best = best_cost.at<float>(cells[k].rect.y + row, cells[k].rect.x + column);
+        auto& best = best_cost.at<float>(cells[k].rect.y + row, cells[k].rect.x + column);
         if (!(cost < best)) continue;
         best = cost;
         labels.at<std::uint16_t>(cells[k].rect.y + row, cells[k].rect.x + column) =

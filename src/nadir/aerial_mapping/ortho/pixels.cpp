@@ -31,7 +31,7 @@ cv::Mat rgb_of(const PhotoSet& set, std::size_t photo) {
     }
     for (int column = 0; column < pixels.width(); ++column)
       for (int channel = 0; channel < 3; ++channel)
-        to[3 * column + channel] = source[static_cast<std::size_t>(column * pixels.channels())];
+        to[3 * column + channel] = pixels.at(column, row, 0);
   }
   return rgb;
 }

@@ -46,11 +46,12 @@ bool is_occluded(const View& view, const Ground& ground, const Eigen::Vector3d& 
   if (across < 1e-9 || to.z() <= 0.0) return false;
   const double cell = ground.heights.geo.resolution;
   // Beyond the height of a tall building nothing stands in the way.
-  const double kTallest = 40.0;
+  constexpr double kTallest = 40.0;
   const double reach = std::min(across, kTallest * across / to.z());
   const double step = std::max(cell, reach / kSteps);
-  for (double d = cell; d <= reach; d += step) {
-    const double f = d / across;
+  const int steps = static_cast<int>(std::floor((reach - cell) / step));
+  for (int k = 0; k <= steps; ++k) {
+    const double f = (cell + k * step) / across;
     const double z = point.z() + f * to.z();
     if (ground.height_at(point.x() + f * to.x(), point.y() + f * to.y()) > z + kOccluderM)
       return true;
