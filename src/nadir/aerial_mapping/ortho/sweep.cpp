@@ -66,9 +66,9 @@ std::optional<Patch> patch_of(const SmallView& small, const Eigen::Vector3d& poi
   Patch patch{};
   double mean = 0.0;
   for (int k = 0; k < kSamples; ++k) {
-    const int column = k % kSide - kSide / 2;
-    const int row = k / kSide - kSide / 2;
-    const Eigen::Vector3d offset{column * sample, row * sample, 0.0};
+    const int east = k % kSide - kSide / 2;
+    const int north = k / kSide - kSide / 2;
+    const Eigen::Vector3d offset{east * sample, north * sample, 0.0};
     const View& view = *small.view;
     const auto pixel = view.camera.project(view.camera_from_map * (point + offset - view.centre));
     if (!pixel) return std::nullopt;
