@@ -6,8 +6,9 @@ src/nadir/report and apps have not been brought to pass yet: they belong in FOLD
 
 Most of clang-tidy's time goes into the headers of Eigen and OpenCV. So the sources of a target are
 looked at in groups, each as one source that includes them, which the static analyzer knows as
-"unified sources" and analyzes in full. A group with anything to say, be it that two of its sources
-have the same name for something, is looked at source by source, and only that counts.
+"unified sources" and analyzes in full. A group with anything to say, or one that does not compile
+because two of its sources have the same name for something, is looked at source by source, and only
+that counts.
 
 What passed is not looked at again until what the compiler sees of it, comments included, or
 .clang-tidy changes: the marks lie in <build>/tidy.
@@ -85,7 +86,9 @@ def tidy(sources, arguments, build, common):
         text = "".join(f'#include "{source}"\n' for source in sources)
         together = build / "tidy" / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.cpp"
         together.write_text(text, encoding="utf-8")
-        if not said_of(together, arguments, build, common, ["--checks=-bugprone-suspicious-include"]):
+        compiled = subprocess.run([*arguments, "-fsyntax-only", str(together)], cwd=build,
+                                  check=False, capture_output=True)
+        if compiled.returncode == 0 and not said_of(together, arguments, build, common, ["--checks=-bugprone-suspicious-include"]):
             return []
     said = [said_of(source, arguments, build, common) for source in sources]
     return [text for text in said if text]
