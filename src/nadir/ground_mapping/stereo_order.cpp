@@ -36,7 +36,9 @@ StereoOrder stereo_order(const StereoRig& rig, const StereoFrame& frame,
   const int disparities = std::max(16, left.cols / 10 / 16 * 16 + 16);
   if (left.cols <= disparities + 32) return {};
   return {matched_share(left, right, disparities, options.block_size),
-          matched_share(right, left, disparities, options.block_size)};
+          // as if they had been swapped
+          matched_share(right, left, disparities,
+                        options.block_size)};  // NOLINT(readability-suspicious-call-argument)
 }
 
 }  // namespace nadir

@@ -168,7 +168,7 @@ class Adjustment {
   const Blocks& blocks() const { return blocks_; }
 
  private:
-  ceres::LossFunction* loss(double weight) {
+  ceres::LossFunction* loss(double weight) const {
     ceres::LossFunction* tail =
         plan_.heavy_tail ? static_cast<ceres::LossFunction*>(new ceres::CauchyLoss(plan_.loss_px))
                          : new ceres::HuberLoss(plan_.loss_px);
@@ -180,8 +180,7 @@ class Adjustment {
     for (const std::size_t i : blocks_.landmarks)
       for (std::size_t k = 0; k < model_.landmarks[i].track.size(); ++k)
         if (model_.landmarks[i].used[k] != 0) ++count[model_.landmarks[i].track[k].photo];
-    for (std::size_t photo = 0; photo < count.size(); ++photo)
-      weight_.push_back(std::min(1.0, kIndependent / std::max(1, count[photo])));
+    for (const int seen : count) weight_.push_back(std::min(1.0, kIndependent / std::max(1, seen)));
     for (std::size_t n = 0; n < blocks_.landmarks.size(); ++n) {
       const Landmark& landmark = model_.landmarks[blocks_.landmarks[n]];
       for (std::size_t k = 0; k < landmark.track.size(); ++k) {
@@ -372,7 +371,7 @@ std::vector<Eigen::Vector3d> velocities_of(const std::vector<MappingPhoto>& phot
   for (std::size_t i = 0; i < photos.size(); ++i)
     if (photos[i].prior.position && photos[i].prior.taken_at)
       by_camera[photos[i].camera].push_back(i);
-  const double kLongestGap = 20.0;  // s: beyond, it is another strip or another flight
+  constexpr double kLongestGap = 20.0;  // s: beyond, it is another strip or another flight
   for (auto& [camera, order] : by_camera) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return *photos[a].prior.taken_at < *photos[b].prior.taken_at;

@@ -53,7 +53,8 @@ std::vector<std::size_t> spread(const std::vector<cv::KeyPoint>& points,
   for (const std::size_t i : order) {
     const int column = std::clamp(static_cast<int>(points[i].pt.x / cell), 0, columns - 1);
     const int row = std::clamp(static_cast<int>(points[i].pt.y / cell), 0, rows - 1);
-    int& count = taken[static_cast<std::size_t>(row * columns + column)];
+    const int bin = row * columns + column;
+    int& count = taken[static_cast<std::size_t>(bin)];
     if (count < share) {
       ++count;
       kept.push_back(i);

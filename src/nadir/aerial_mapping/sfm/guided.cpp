@@ -25,15 +25,18 @@ class Bins {
     for (std::size_t i = 0; i < features.points.size(); ++i) {
       const int column = bin(features.points[i].u, columns_);
       const int row = bin(features.points[i].v, rows_);
-      bins_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<int>(i));
+      const int at = row * columns_ + column;
+      bins_[static_cast<std::size_t>(at)].push_back(static_cast<int>(i));
     }
   }
 
   template <class Visit>
   void visit(double left, double top, double right, double bottom, const Visit& each) const {
     for (int row = bin(top, rows_); row <= bin(bottom, rows_); ++row)
-      for (int column = bin(left, columns_); column <= bin(right, columns_); ++column)
-        for (const int i : bins_[static_cast<std::size_t>(row * columns_ + column)]) each(i);
+      for (int column = bin(left, columns_); column <= bin(right, columns_); ++column) {
+        const int at = row * columns_ + column;
+        for (const int i : bins_[static_cast<std::size_t>(at)]) each(i);
+      }
   }
 
  private:

@@ -70,7 +70,7 @@ std::vector<PlanarMatch> planar_matches(const Model& model, const std::vector<in
                            static_cast<std::size_t>(slot[pair.second]), *p, *q, 1.0});
     }
     // More matches make a pair surer, but not in proportion: their errors are common ones.
-    const double count = static_cast<double>(matches.size() - begin);
+    const auto count = static_cast<double>(matches.size() - begin);
     for (std::size_t k = begin; k < matches.size(); ++k)
       matches[k].weight = std::sqrt(count) / std::max(count, 1.0);
   }
@@ -234,7 +234,7 @@ Placement place(Model& model, const std::vector<std::size_t>& group,
       heights.push_back(*photos[i].prior.relative_altitude_m / pose.centre.z());
   }
   // Positions of a drone that hovers say nothing of scale and heading.
-  const double kFewMetres = 3.0;
+  constexpr double kFewMetres = 3.0;
   const bool spread = from.size() >= 2 && extent_of(to) > kFewMetres;
   double scale = 1.0;
   double turn = 0.0;

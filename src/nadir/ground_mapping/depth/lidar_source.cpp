@@ -51,8 +51,8 @@ void check_units(const std::vector<LidarPoint>& points) {
 /// Where the robot was at a time offset from the stamp, by the velocity of its last step.
 class SweepPoses {
  public:
-  SweepPoses(const OdomPose3& pose, const RobotMotion& motion)
-      : pose_(pose), motion_(motion), turn_(motion.step.rotation) {}
+  SweepPoses(OdomPose3 pose, RobotMotion motion)
+      : pose_(std::move(pose)), motion_(std::move(motion)), turn_(motion_.step.rotation) {}
 
   OdomPose3 at(double offset_s) const {
     if (offset_s == 0.0 || motion_.duration_s <= 0.0) return pose_;

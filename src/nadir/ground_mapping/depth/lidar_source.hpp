@@ -19,7 +19,7 @@ class LidarSource {
                       const RobotMotion& motion, FrameStatistics& statistics);
   double min_range_m() const { return options_.lidar_min_range_m; }
   double max_range_m() const { return options_.lidar_max_range_m; }
-  int min_points() const { return 1; }
+  static int min_points() { return 1; }
 
  private:
   void to_points(const LidarFrame& frame, const OdomPose3& odom_from_robot,

@@ -14,12 +14,14 @@ namespace nadir::ground {
 namespace {
 
 cv::Mat intrinsics(const CameraModel& camera) {
-  return (cv::Mat_<double>(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0,
-          1.0);
+  cv::Mat matrix = (cv::Mat_<double>(3, 3) << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy,
+                    0.0, 0.0, 1.0);
+  return matrix;
 }
 
 cv::Mat distortion(const CameraModel& camera) {
-  return (cv::Mat_<double>(1, 5) << camera.k1, camera.k2, camera.p1, camera.p2, camera.k3);
+  cv::Mat row = (cv::Mat_<double>(1, 5) << camera.k1, camera.k2, camera.p1, camera.p2, camera.k3);
+  return row;
 }
 
 void check_rig(const StereoRig& rig) {

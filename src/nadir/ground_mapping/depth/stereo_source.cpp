@@ -236,7 +236,8 @@ void StereoSource::to_points(const Pixels& pixels, Measurement& measurement,
     auto& points = measurement.points[static_cast<std::size_t>(stripe)];
     DroppedPoints& lost = dropped[static_cast<std::size_t>(stripe)];
     const int end = std::min(camera.height, (stripe + 1) * kRowsPerStripe);
-    points.reserve(static_cast<std::size_t>(kRowsPerStripe * camera.width));
+    points.reserve(static_cast<std::size_t>(kRowsPerStripe) *
+                   static_cast<std::size_t>(camera.width));
     for (int row = stripe * kRowsPerStripe; row < end; ++row) {
       const auto* disparities = pixels.disparity.ptr<std::int16_t>(row);
       const auto* textured_row = pixels.textured.ptr<std::uint8_t>(row);

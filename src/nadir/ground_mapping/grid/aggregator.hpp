@@ -46,7 +46,7 @@ class Aggregator {
  public:
   static constexpr int kBands = 32;
 
-  Aggregator(double height_sigma_m) : height_sigma_m_(height_sigma_m) {}
+  explicit Aggregator(double height_sigma_m) : height_sigma_m_(height_sigma_m) {}
 
   /// The measured cells, by bands of the grid. Returns how many points lay outside the grid.
   std::int64_t aggregate(const Measurement& measurement, const ElevationGrid& grid);

@@ -68,7 +68,8 @@ Rays gather(const Aggregator& cells, const ElevationGrid& grid, const Viewpoint&
       const int sector = sector_of(away.x(), away.y());
       const double slope =
           (static_cast<double>(grid.at(m.address).height) - viewpoint.position.z()) / distance;
-      float& kept = rays.steepest[static_cast<std::size_t>(sector * rays.reach + step)];
+      const int ray = sector * rays.reach + step;
+      float& kept = rays.steepest[static_cast<std::size_t>(ray)];
       kept = std::min(kept, static_cast<float>(slope));
       auto& farthest = rays.farthest[static_cast<std::size_t>(sector)];
       farthest = std::max(farthest, step);
@@ -99,8 +100,8 @@ int clear_seen_through(const Aggregator& cells, ElevationGrid& grid,
     float slope = std::numeric_limits<float>::infinity();
     CellIndex previous{std::numeric_limits<std::int64_t>::min(), 0};
     for (int step = farthest - behind; step >= 1; --step) {
-      slope = std::min(
-          slope, rays.steepest[static_cast<std::size_t>(sector * rays.reach + step + behind)]);
+      const int ray = sector * rays.reach + step + behind;
+      slope = std::min(slope, rays.steepest[static_cast<std::size_t>(ray)]);
       const double distance = (step + 0.5) * resolution;
       const CellIndex index =
           grid.index_of(sensor_in_odom.x() + c * distance, sensor_in_odom.y() + s * distance);

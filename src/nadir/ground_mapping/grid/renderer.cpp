@@ -136,7 +136,8 @@ Sample mean_of(const std::vector<Sample>& samples) {
 }
 
 /// The nearest known cell within `most` gap cells along one axis; its distance in cells, or 0.
-int known_along(const ElevationGrid& grid, CellIndex from, int dx, int dy, int most) {
+int known_along(const ElevationGrid& grid, CellIndex from, std::int64_t dx, std::int64_t dy,
+                int most) {
   for (int i = 1; i <= most; ++i) {
     const Cell* cell = grid.find({from.x + dx * i, from.y + dy * i});
     if (cell == nullptr) return 0;
@@ -264,7 +265,7 @@ std::optional<GroundPlane> ground_plane(const ElevationGrid& grid,
 std::optional<float> filled_height(const ElevationGrid& grid, CellIndex index, int fill_cells) {
   double sum = 0.0, weights = 0.0;
   for (int axis = 0; axis < 2; ++axis) {
-    const int dx = axis == 0 ? 1 : 0, dy = 1 - dx;
+    const std::int64_t dx = axis == 0 ? 1 : 0, dy = 1 - dx;
     const int before = known_along(grid, index, -dx, -dy, fill_cells);
     if (before == 0) continue;
     const int after = known_along(grid, index, dx, dy, fill_cells + 1 - before);

@@ -10,6 +10,6 @@
 namespace nadir {
 
 /// As read_image, of the bytes of a file that are in memory; `name` is what errors call it.
-Raster<std::uint8_t> decode_image(const std::filesystem::path& name, std::string bytes);
+Raster<std::uint8_t> decode_image(const std::filesystem::path& path, std::string bytes);
 
 }  // namespace nadir

@@ -23,7 +23,7 @@ int camera_number(const path& folder) {
 }
 
 std::string projection_key(const KittiCalibration& calibration, int camera) {
-  const std::string key = calibration.first_of(
+  std::string key = calibration.first_of(
       {fmt::format("P{}", camera), fmt::format("P_rect_{:02}", camera), "P_rect"});
   if (key.empty()) {
     throw input_error(calibration.file(), fmt::format("has no projection of camera {}", camera),
@@ -49,7 +49,7 @@ CameraFromLidar camera0_from_lidar(const KittiCalibration& calibration) {
                       "add a row Tr: camera_from_lidar as a 3x4 matrix");
   }
   const Eigen::Matrix<double, 3, 4> m = calibration.matrix34(key);
-  const auto camera_from_lidar =
+  auto camera_from_lidar =
       rigid<frames::Camera, frames::Lidar>(m.leftCols<3>(), m.col(3), calibration.where(key));
   const std::string rectification = calibration.first_of({"R_rect", "R0_rect", "R_rect_00"});
   if (rectification.empty()) return camera_from_lidar;

@@ -86,6 +86,8 @@ class Bag {
   ~Bag();
   Bag(const Bag&) = delete;
   Bag& operator=(const Bag&) = delete;
+  Bag(Bag&&) = delete;
+  Bag& operator=(Bag&&) = delete;
 
   const std::filesystem::path& file() const;
   const std::vector<Topic>& topics() const;  ///< by name

@@ -36,8 +36,10 @@ std::vector<StampedNumber> by_stamp(const ros1::Bag& bag, const std::string& top
     numbers.push_back({header.stamp_ns, numbers.size()});
   }
   std::ranges::stable_sort(numbers, {}, &StampedNumber::stamp_ns);
-  const auto twice = std::ranges::unique(numbers, {}, &StampedNumber::stamp_ns);
-  numbers.erase(twice.begin(), twice.end());
+  const auto same_time = [](const StampedNumber& a, const StampedNumber& b) {
+    return a.stamp_ns == b.stamp_ns;
+  };
+  numbers.erase(std::unique(numbers.begin(), numbers.end(), same_time), numbers.end());
   return numbers;
 }
 

@@ -70,8 +70,10 @@ BagMotion motion_from(std::vector<Transform> transforms, const std::string& wher
   }
   const auto stamp_of = [](const Transform& one) { return one.header.stamp_ns; };
   std::ranges::stable_sort(transforms, {}, stamp_of);
-  const auto twice = std::ranges::unique(transforms, {}, stamp_of);
-  transforms.erase(twice.begin(), twice.end());
+  const auto same_time = [&](const Transform& a, const Transform& b) {
+    return stamp_of(a) == stamp_of(b);
+  };
+  transforms.erase(std::unique(transforms.begin(), transforms.end(), same_time), transforms.end());
   if (const std::size_t lost = all - transforms.size(); lost > 0) {
     motion.notes.push_back(
         fmt::format("{}: {} of {} poses have the stamp of another, or are none, and are left out",

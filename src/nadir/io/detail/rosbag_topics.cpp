@@ -64,7 +64,7 @@ std::string found_topic(const Bag& bag, const std::string& asked, const Purpose&
 std::pair<std::string, std::string> image_and_camera(std::string topic) {
   const auto cut_last = [&topic] {
     const std::size_t slash = topic.rfind('/');
-    const std::string last = topic.substr(slash == std::string::npos ? 0 : slash + 1);
+    std::string last = topic.substr(slash == std::string::npos ? 0 : slash + 1);
     topic.resize(slash == std::string::npos ? 0 : slash);
     return last;
   };
