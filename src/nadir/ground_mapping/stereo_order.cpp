@@ -35,10 +35,10 @@ StereoOrder stereo_order(const StereoRig& rig, const StereoFrame& frame,
   const cv::Mat right = ground::grey_of(rectifier.right(frame.right, first_row));
   const int disparities = std::max(16, left.cols / 10 / 16 * 16 + 16);
   if (left.cols <= disparities + 32) return {};
-  return {matched_share(left, right, disparities, options.block_size),
-          // as if they had been swapped
-          matched_share(right, left, disparities,
-                        options.block_size)};  // NOLINT(readability-suspicious-call-argument)
+  const double as_given = matched_share(left, right, disparities, options.block_size);
+  // NOLINTNEXTLINE(readability-suspicious-call-argument): as if they had been swapped
+  const double swapped = matched_share(right, left, disparities, options.block_size);
+  return {as_given, swapped};
 }
 
 }  // namespace nadir
