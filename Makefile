@@ -22,9 +22,14 @@ demo: build  ## simulate a drive, localize it, write out/demo
 test: build  ## build and run all tests
 	ctest --preset release -j $(JOBS)
 
-bench: build  ## measure against peers, write benchmarks/reports/DATE-peers.md, run */bin/*_bench
+bench: build  ## measure against peers, write benchmarks/reports/DATE-peers.md; with NADIR_DATA, both mappings too
 	benchmarks/peers_report.py $(if $(NADIR_DATA),--data $(NADIR_DATA))
-	set -e; for program in build/release/bin/*_bench; do echo "== $$program"; $$program; done
+	build/release/bin/matching_bench
+	build/release/bin/simulation_bench
+ifdef NADIR_DATA
+	build/release/bin/ground_mapping_bench $(NADIR_DATA)
+	build/release/bin/aerial_mapping_bench $(NADIR_DATA)/brighton_beach/images
+endif
 
 format: deps-quality  ## format every C++ file in place
 	git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format -i
