@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_figures.hpp"
 
-#include <cmath>
-
 #include "nadir/io/image.hpp"
 
 namespace nadir::cli {
 namespace {
-
-/// A share without the noise of its last digits, which would otherwise become the scale of a plot.
-double rounded_share(double share) { return std::round(1e6 * share) / 1e6; }
 
 Figure diagnostics(const RunFigures& figures) {
   Curve particles{"N_eff", {}, {}};
@@ -21,8 +16,8 @@ Figure diagnostics(const RunFigures& figures) {
     for (Curve* curve : {&particles, &score, &valid, &mass}) curve->x.push_back(seconds);
     particles.y.push_back(record.estimate.effective_particles);
     score.y.push_back(record.estimate.best_score);
-    valid.y.push_back(rounded_share(record.estimate.valid_weight));
-    mass.y.push_back(rounded_share(record.estimate.cluster_mass));
+    valid.y.push_back(record.estimate.valid_weight);
+    mass.y.push_back(record.estimate.cluster_mass);
   }
   return draw_panels({{"particles", {particles}}, {"score", {score}}, {"share", {valid, mass}}},
                      "stamp, s", figures.title);

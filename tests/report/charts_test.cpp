@@ -163,5 +163,12 @@ TEST(Markup, EscapesWhatMarkupIsMadeOf) {
   EXPECT_EQ(report::escaped(std::string("a\0b\x1b", 4)), "a b ");
 }
 
+TEST(SvgPanels, LastDigitsAreNotTheScale) {
+  const std::string svg =
+      svg_panels({{"share", {{"share", {0.0, 1.0, 2.0}, {1.0, 0.999996, 1.0}}}}}, "s", "title");
+  EXPECT_EQ(svg.find("0.99999"), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">1.0<"), std::string::npos) << svg;
+}
+
 }  // namespace
 }  // namespace nadir

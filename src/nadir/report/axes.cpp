@@ -10,6 +10,9 @@
 namespace nadir::report {
 namespace {
 
+/// Share of its size by which a curve must vary to be more than flat.
+constexpr double kFlat = 1e-3;
+
 template <class Whole>
 std::vector<Run> runs_where(std::size_t length, Whole&& whole) {
   std::vector<Run> runs;
@@ -97,10 +100,11 @@ Interval y_interval(const Panel& panel, double& step) {
   if (empty) data = {0.0, 1.0, true};
   if (data.low > 0.0 && data.low < 0.6 * data.high) data.low = 0.0;
   if (data.high < 0.0 && data.high > 0.6 * data.low) data.high = 0.0;
-  if (data.is_point()) {
-    const double half = std::max(0.5, 0.1 * std::abs(data.low));
-    data.low -= half;
-    data.high += half;
+  // A curve that only its last digits move is flat: they must not become the scale.
+  const double size = std::max(std::abs(data.low), std::abs(data.high));
+  if (data.is_point() || data.high - data.low < kFlat * size) {
+    const double half = std::max(0.5, 0.1 * size);
+    data = {data.low - half, data.high + half, data.empty};
   }
   step = nice_step(data.high - data.low, 4);
   return {step * std::floor(data.low / step + 1e-9), step * std::ceil(data.high / step - 1e-9),

@@ -57,7 +57,9 @@ void draw_map_axes(Canvas& canvas, const MapView& view, double text_size) {
   for (const double x : ticks_between(view.region.west, view.region.east, step)) {
     const double at = view.at(x, view.region.south).x;
     canvas.line({{at, box.bottom()}, {at, box.bottom() + 7.0}}, {kFrame, 1.5, {}, 0.0});
-    canvas.text({at, box.bottom() + 12.0 + 0.6 * text_size}, tick_label(x, step), below);
+    const std::string label = tick_label(x, step);
+    if (at - 0.5 * text_width(label, below) < box.left) continue;  // the unit stands there
+    canvas.text({at, box.bottom() + 12.0 + 0.6 * text_size}, label, below);
   }
   for (const double y : ticks_between(view.region.south, view.region.north, step)) {
     const double at = view.at(view.region.west, y).y;
