@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page_check.hpp"
 
-#include <regex>
+#include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 #include <vector>
 
 namespace nadir::testing {
@@ -15,9 +17,9 @@ bool is_void(const std::string& name) {
 }
 
 bool is_entity_at(const std::string& page, std::size_t at) {
-  static const std::regex entity("&(lt|gt|amp|quot|#39);");
-  return std::regex_search(page.begin() + static_cast<std::ptrdiff_t>(at), page.end(), entity,
-                           std::regex_constants::match_continuous);
+  const std::string_view rest = std::string_view(page).substr(at);
+  return std::ranges::any_of(std::array{"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"},
+                             [&](const char* entity) { return rest.starts_with(entity); });
 }
 
 /// Content of a <style> is no markup.
@@ -69,10 +71,12 @@ std::string foreign_part(const std::string& page) {
     const std::size_t found = page.find(part);
     if (found != std::string::npos) return around(page, found);
   }
-  static const std::regex source("(src|href|xlink:href)=\"(?!data:)([^\"]*)\"");
-  for (auto match = std::sregex_iterator(page.begin(), page.end(), source);
-       match != std::sregex_iterator(); ++match) {
-    return (*match)[0];
+  // xlink:href ends in href too
+  for (const std::string attribute : {"src=\"", "href=\""}) {
+    for (std::size_t at = page.find(attribute); at != std::string::npos;
+         at = page.find(attribute, at + 1)) {
+      if (page.compare(at + attribute.size(), 5, "data:") != 0) return around(page, at);
+    }
   }
   return "";
 }
