@@ -69,7 +69,7 @@ Raster<std::uint8_t> DriveOverview::draw(const Odometry& odometry, const std::st
   for (const auto& [stamp, pose] : odometry) {
     track.trajectory.push_back({stamp, {pose.x, pose.y, pose.yaw}});
   }
-  return draw_trajectories(mosaic_, {track}, title);
+  return draw_trajectories(mosaic_, {track}, title, {.whole_map = true, .north_arrow = false});
 }
 
 }  // namespace nadir::cli

@@ -22,11 +22,17 @@ struct Track {
   Trajectory trajectory;
 };
 
+/// What a figure shows around its tracks.
+struct Surroundings {
+  bool whole_map = false;   ///< else the part around the tracks
+  bool north_arrow = true;  ///< false where the y axis is not north, as in the odometry's frame
+};
+
 /// The map with tracks on it (the paper's Fig. 9), cropped to what is of interest; legend, scale
 /// bar, north arrow. The first track is drawn last, on top; those beneath are wider. Poses that are
-/// not finite interrupt their track. Every figure is north up, its axes in metres of the map frame.
+/// not finite interrupt their track. Every figure has its axes in metres of the map frame, y up.
 Figure draw_trajectories(const Orthomosaic& map, const std::vector<Track>& tracks,
-                         const std::string& title);
+                         const std::string& title, const Surroundings& surroundings = {});
 
 struct Swarm {
   std::string label;  ///< e.g. "frame 170"

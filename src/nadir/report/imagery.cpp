@@ -14,9 +14,8 @@ namespace {
 struct Reduced {
   cv::Mat colour;  ///< CV_32FC3
   cv::Mat weight;  ///< CV_32F
-  double factor_x = 1.0;
-  double factor_y = 1.0;
-  cv::Point origin;
+  int factor = 1;
+  cv::Point origin;  ///< of the cut-out in the map
 };
 
 /// The map's pixels that a sheet needs, with one to spare.
@@ -39,56 +38,50 @@ cv::Rect needed(const Orthomosaic& map, const PixelTransform& a, int width, int 
           clamped(std::ceil(bottom) + 1.0, map.height()) - y};
 }
 
-Reduced cut_out(const Orthomosaic& map, const cv::Rect& rect) {
-  Reduced cut{cv::Mat(rect.height, rect.width, CV_32FC3), cv::Mat(rect.height, rect.width, CV_32F),
-              1.0, 1.0, rect.tl()};
+/// Means over blocks of factor x factor pixels; beyond the map nothing is valid. The map is never
+/// held in single precision as a whole: maps are large.
+Reduced cut_out(const Orthomosaic& map, const cv::Rect& rect, int factor) {
+  const cv::Size size((rect.width + factor - 1) / factor, (rect.height + factor - 1) / factor);
+  Reduced cut{cv::Mat::zeros(size, CV_32FC3), cv::Mat::zeros(size, CV_32F), factor, rect.tl()};
   const int last = map.image.channels() - 1;
+  const float share = 1.0F / static_cast<float>(factor * factor);
   for (int row = 0; row < rect.height; ++row) {
     for (int column = 0; column < rect.width; ++column) {
       const int x = rect.x + column;
       const int y = rect.y + row;
-      const float seen = map.valid.at(x, y) != 0 ? 1.0F : 0.0F;
-      cut.weight.at<float>(row, column) = seen;
-      auto& pixel = cut.colour.at<cv::Vec3f>(row, column);
+      if (map.valid.at(x, y) == 0) continue;
+      cut.weight.at<float>(row / factor, column / factor) += share;
+      auto& pixel = cut.colour.at<cv::Vec3f>(row / factor, column / factor);
       for (int channel = 0; channel < 3; ++channel) {
-        pixel[channel] = seen * map.image.at(x, y, std::min(channel, last));
+        pixel[channel] += share * map.image.at(x, y, std::min(channel, last));
       }
     }
   }
   return cut;
 }
 
-void reduce(Reduced& cut, int factor) {
-  const cv::Size size(std::max(1, cut.colour.cols / factor), std::max(1, cut.colour.rows / factor));
-  cut.factor_x = static_cast<double>(cut.colour.cols) / size.width;
-  cut.factor_y = static_cast<double>(cut.colour.rows) / size.height;
-  cv::Mat colour;
-  cv::Mat weight;
-  cv::resize(cut.colour, colour, size, 0.0, 0.0, cv::INTER_AREA);
-  cv::resize(cut.weight, weight, size, 0.0, 0.0, cv::INTER_AREA);
-  cut.colour = colour;
-  cut.weight = weight;
+/// From the pixels of a sheet, counted from row `first`, to those of the cut-out. Both count pixel
+/// centres from 0 in OpenCV, and at +0.5 here.
+cv::Matx23d warp_matrix(const PixelTransform& a, const Reduced& cut, int first) {
+  const double x = a[2] + 0.5 * (a[0] + a[1]) + first * a[1] - cut.origin.x;
+  const double y = a[5] + 0.5 * (a[3] + a[4]) + first * a[4] - cut.origin.y;
+  const double factor = cut.factor;
+  return {a[0] / factor, a[1] / factor, x / factor - 0.5,
+          a[3] / factor, a[4] / factor, y / factor - 0.5};
 }
 
-/// Both rasters count pixel centres from 0 in OpenCV, and at +0.5 here.
-cv::Matx23d warp_matrix(const PixelTransform& a, const Reduced& cut) {
-  const double x = a[2] + 0.5 * (a[0] + a[1]) - cut.origin.x;
-  const double y = a[5] + 0.5 * (a[3] + a[4]) - cut.origin.y;
-  return {a[0] / cut.factor_x, a[1] / cut.factor_x, x / cut.factor_x - 0.5,
-          a[3] / cut.factor_y, a[4] / cut.factor_y, y / cut.factor_y - 0.5};
-}
-
-void divide_out(const cv::Mat& colour, const cv::Mat& weight, Imagery& imagery) {
+/// Into the rows of the imagery from `first` on.
+void divide_out(const cv::Mat& colour, const cv::Mat& weight, int first, Imagery& imagery) {
   for (int row = 0; row < weight.rows; ++row) {
     for (int column = 0; column < weight.cols; ++column) {
       const float share = weight.at<float>(row, column);
       if (share < 1e-3F) continue;
       const auto& pixel = colour.at<cv::Vec3f>(row, column);
       for (int channel = 0; channel < 3; ++channel) {
-        imagery.colour.at(column, row, channel) =
+        imagery.colour.at(column, first + row, channel) =
             cv::saturate_cast<std::uint8_t>(pixel[channel] / share);
       }
-      imagery.opacity.at(column, row) = cv::saturate_cast<std::uint8_t>(255.0F * share);
+      imagery.opacity.at(column, first + row) = cv::saturate_cast<std::uint8_t>(255.0F * share);
     }
   }
 }
@@ -101,16 +94,19 @@ Imagery resample(const Orthomosaic& map, const PixelTransform& map_from_sheet, i
   if (map.image.empty()) return imagery;
   const cv::Rect rect = needed(map, map_from_sheet, width, height);
   if (rect.width <= 0 || rect.height <= 0) return imagery;
-  Reduced cut = cut_out(map, rect);
   const double step = std::hypot(map_from_sheet[0], map_from_sheet[3]);
-  if (step >= 2.0) reduce(cut, static_cast<int>(step));
-  const cv::Matx23d matrix = warp_matrix(map_from_sheet, cut);
+  const Reduced cut = cut_out(map, rect, std::max(1, static_cast<int>(step)));
+  constexpr int kBand = 64;  // rows that are held in single precision at a time
+  const int flags = cv::INTER_LINEAR | cv::WARP_INVERSE_MAP;
   cv::Mat colour;
   cv::Mat weight;
-  const int flags = cv::INTER_LINEAR | cv::WARP_INVERSE_MAP;
-  cv::warpAffine(cut.colour, colour, matrix, {width, height}, flags, cv::BORDER_CONSTANT);
-  cv::warpAffine(cut.weight, weight, matrix, {width, height}, flags, cv::BORDER_CONSTANT);
-  divide_out(colour, weight, imagery);
+  for (int first = 0; first < height; first += kBand) {
+    const cv::Matx23d matrix = warp_matrix(map_from_sheet, cut, first);
+    const cv::Size band(width, std::min(kBand, height - first));
+    cv::warpAffine(cut.colour, colour, matrix, band, flags, cv::BORDER_CONSTANT);
+    cv::warpAffine(cut.weight, weight, matrix, band, flags, cv::BORDER_CONSTANT);
+    divide_out(colour, weight, first, imagery);
+  }
   return imagery;
 }
 

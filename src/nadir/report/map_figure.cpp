@@ -109,8 +109,8 @@ Region region_of_interest(const Region& content, const Region& map, double margi
   return shown.empty ? wanted : shown;
 }
 
-void draw_furniture(Canvas& canvas, const MapView& view, const Box& box) {
-  draw_north_arrow(canvas, {box.right() - 36.0, box.top + 4.0}, 104.0);
+void draw_furniture(Canvas& canvas, const MapView& view, const Box& box, bool north_arrow) {
+  if (north_arrow) draw_north_arrow(canvas, {box.right() - 36.0, box.top + 4.0}, 104.0);
   draw_scale_bar(canvas, view, {box.left + 4.0, box.top + 34.0}, box.width - 120.0);
 }
 

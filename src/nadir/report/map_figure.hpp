@@ -49,6 +49,6 @@ MapLayout lay_out_map(const Region& region, std::size_t legend_entries);
 /// beyond the map where that can be helped.
 Region region_of_interest(const Region& content, const Region& map, double margin);
 
-void draw_furniture(Canvas& canvas, const MapView& view, const Box& box);
+void draw_furniture(Canvas& canvas, const MapView& view, const Box& box, bool north_arrow = true);
 
 }  // namespace nadir::report

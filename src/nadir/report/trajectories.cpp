@@ -104,14 +104,15 @@ Region content_of(const std::vector<Track>& tracks) {
 }  // namespace
 
 Figure draw_trajectories(const Orthomosaic& map, const std::vector<Track>& tracks,
-                         const std::string& title) {
-  constexpr double kSurroundings = 5.0;  // metres
+                         const std::string& title, const Surroundings& surroundings) {
+  constexpr double kMarginM = 5.0;
   const Region content = content_of(tracks);
+  const Region extent = extent_of(map.geo, map.width(), map.height());
   std::vector<LegendEntry> legend = legend_of(tracks);
   if (!content.empty) add_end_marks(legend);
-  const MapLayout layout = lay_out_map(
-      region_of_interest(content, extent_of(map.geo, map.width(), map.height()), kSurroundings),
-      legend.size());
+  const MapLayout layout =
+      lay_out_map(region_of_interest(surroundings.whole_map ? extent : content, extent, kMarginM),
+                  legend.size());
   Canvas canvas(layout.width, layout.height);
   draw_title(canvas, title);
   draw_map(canvas, layout.view, map, Tint::kColour);
@@ -123,7 +124,7 @@ Figure draw_trajectories(const Orthomosaic& map, const std::vector<Track>& track
   if (content.empty) draw_note(canvas, layout.view.box, "nothing to show: no pose in any track");
   draw_map_axes(canvas, layout.view);
   draw_legend(canvas, layout.legend, legend);
-  draw_furniture(canvas, layout.view, layout.furniture);
+  draw_furniture(canvas, layout.view, layout.furniture, surroundings.north_arrow);
   return canvas.finish();
 }
 
