@@ -177,7 +177,7 @@ TEST(CudaKernelsTest, BatchesAndStreamsDoNotChangeTheResult) {
 }
 
 TEST(CudaKernelsTest, TheBestPlacesAreTheLocalMaximaOfTheSurfaces) {
-  for (const Score score : {Score::kZwncc, Score::kNcc, Score::kSad}) {
+  for (const Score score : {Score::kZwncc, Score::kNcc, Score::kSad, Score::kWnccPaper}) {
     const MapIndex map(random_image(4, 61, 48, 0.05, {2.0, 9.0, 0.1, {}}), grey(score));
     const Template local =
         make_template(random_image(5, 15, 19, 0.1, {-0.7, 1.0, 0.1, {}}), map.options());
@@ -266,10 +266,12 @@ class CountingDevice : public EmulatedDevice {
  public:
   struct Counts {
     int map_planes = 0;
+    int level_planes = 0;
     std::size_t uploaded = 0;
     int living = 0;
   };
-  explicit CountingDevice(Counts& counts) : counts_(counts) {}
+  explicit CountingDevice(Counts& counts, std::size_t workspace_bytes = std::size_t{64} << 20U)
+      : EmulatedDevice(workspace_bytes), counts_(counts) {}
   void* allocate(std::size_t bytes) override {
     ++counts_.living;
     return EmulatedDevice::allocate(bytes);
@@ -284,6 +286,9 @@ class CountingDevice : public EmulatedDevice {
   }
   void launch(const cuda::Kernel& kernel, int stream) override {
     counts_.map_planes += std::holds_alternative<cuda::MapPlanes>(kernel) ? 1 : 0;
+    if (const auto* planes = std::get_if<cuda::LevelPlanes>(&kernel)) {
+      counts_.level_planes += planes->count;
+    }
     EmulatedDevice::launch(kernel, stream);
   }
 
@@ -322,6 +327,34 @@ TEST(CudaKernelsTest, TheMapGoesToTheDeviceOnceAndItsSpectraAreKept) {
     EXPECT_EQ(counts.map_planes, 1);
   }
   EXPECT_EQ(counts.living, 0);
+}
+
+TEST(CudaKernelsTest, SpectraOfGreyLevelsAreKeptWithinTheMemory) {
+  const MapIndex map(random_image(1, 60, 50, 0.1, {0.0, 5.0, 0.1, {}}), grey(Score::kWnccPaper));
+  const Template local =
+      make_template(random_image(2, 11, 11, 0.2, test::centred(11, 11, 0.1)), map.options());
+  const auto templates = turned(local, all_headings(5), map.options());
+  const auto search = [&](std::size_t workspace_bytes, const PixelWindow& second) {
+    CountingDevice::Counts counts;
+    const DeviceBackend backend(
+        [&] { return std::make_unique<CountingDevice>(counts, workspace_bytes); });
+    {
+      const cuda::KeptMap kept(backend, map);
+      kept.score_surfaces(templates, {0, 0, 60, 50});
+      const int first = counts.level_planes;
+      EXPECT_GT(first, 0);
+      // Whole groups; each once, but where only one fits.
+      EXPECT_TRUE(first <= 256 || workspace_bytes == 1) << first;
+      kept.score_surfaces(templates, second);
+      counts.level_planes -= first;
+    }
+    EXPECT_EQ(counts.living, 0);
+    return counts.level_planes;
+  };
+  EXPECT_EQ(search(std::size_t{64} << 20U, {0, 0, 60, 50}), 0);
+  // Another part of the map has others, and so does the map where only one group fits.
+  EXPECT_GT(search(std::size_t{64} << 20U, {20, 20, 4, 4}), 0);
+  EXPECT_GT(search(1, {0, 0, 60, 50}), 0);
 }
 
 /// Computes all but one thing rightly.

@@ -182,7 +182,7 @@ std::vector<Place> KeptMap::best_places(const Template& local, std::span<const d
   const SurfaceJob job = job_over(box_around(local.channel, yaws, resolution), window, yaws.size());
   if (is_empty(job.window)) return {};
   PeakSink sink(*on_device_->device, job, window, wanted);
-  if (is_correlation(job.rule)) {
+  if (is_correlation(job.rule) && !job.rule.whole_square) {
     TurnTemplates kernel = turn_kernel(*on_device_, map_, local.channel, yaws, job.box);
     const Heading* headings = kernel.headings;
     const auto turn = [&](const Batch& batch, StreamWork& work) {
@@ -199,7 +199,7 @@ std::vector<Place> KeptMap::best_places(const Template& local, std::span<const d
     templates.push_back(
         rotate_template(local.channel, yaw, resolution, pixel_role(map_.options())));
   }
-  sum_surfaces(*on_device_, job, templates, sink);
+  run_on_templates(*on_device_, job, templates, sink);
   return sink.places();
 }
 

@@ -42,8 +42,8 @@ class KeptMap {
                                            const PixelWindow& window) const;
   std::vector<PoseScore> score_poses(const Template& local,
                                      std::span<const Pose2> map_from_robot) const;
-  /// The best local maxima of a search, best first, without the surfaces leaving the device: for
-  /// the correlation scores the templates are turned there too.
+  /// The best local maxima of a search, best first, without the surfaces leaving the device.
+  /// Templates are turned there too where the score is a correlation and holes take no part.
   std::vector<Place> best_places(const Template& local, std::span<const double> yaws,
                                  const PixelWindow& window, int wanted) const;
   /// Of the transforms of the last search over most of the map.

@@ -39,6 +39,7 @@ bool holds(const PlaneShape& have, const PlaneShape& need) {
 
 void compute_spectra(DeviceMap& map, MapSpectra& spectra, const Extent& extent) {
   spectra.shape = {};  // nothing, should the device fail
+  map.levels.part = nullptr;
   const auto size = static_cast<std::size_t>(kMapPlanes * extent.shape.reals());
   MapPlanes planes{map.pixels.data(), map.width,    extent.crop,
                    map.mean_grey,     extent.shape, spectra.planes.reserve(size)};
@@ -90,8 +91,9 @@ std::size_t bytes_per_template(const SurfaceJob& job, const PlaneShape& shape) {
   const auto plane = static_cast<std::size_t>(shape.reals()) * sizeof(float);
   const auto window =
       static_cast<std::size_t>(job.window.width) * static_cast<std::size_t>(job.window.height);
+  const std::size_t moments = job.rule.formula == Formula::kPaper ? 2 : 0;
   // A transform may need as much again as it transforms.
-  return 2 * planes * plane + window * (2 * sizeof(float) + sizeof(PeakKey));
+  return 2 * planes * plane + window * ((2 + moments) * sizeof(float) + sizeof(PeakKey));
 }
 
 }  // namespace
@@ -102,7 +104,9 @@ void correlate_surfaces(DeviceMap& map, const SurfaceJob& job, const FillTemplat
   const MapSpectra& spectra = spectra_for(map, job);
   const PlaneShape shape = spectra.shape;
   const Formula formula = job.rule.formula;
-  const int size = batch_size(job.count, device.workspace_bytes(), bytes_per_template(job, shape));
+  // The other half is for the spectra of levels.
+  const std::size_t bytes = device.workspace_bytes() / (formula == Formula::kPaper ? 2 : 1);
+  const int size = batch_size(job.count, bytes, bytes_per_template(job, shape));
   const auto planes = static_cast<std::size_t>(size * shape.reals());
   const auto scores = static_cast<std::size_t>(size) * static_cast<std::size_t>(job.window.width) *
                       static_cast<std::size_t>(job.window.height);
@@ -131,8 +135,14 @@ void correlate_surfaces(DeviceMap& map, const SurfaceJob& job, const FillTemplat
                                   shape, reinterpret_cast<Complex*>(products)},
                   batch.stream);
     work.product_fft->inverse(products);
+    float* score = work.score.reserve(scores);
+    float* share = work.share.reserve(scores);
+    if (formula == Formula::kPaper) {
+      score_by_levels(map, job, spectra, batch, positions);
+      return;
+    }
     device.launch(AssembleScores{products, stats, batch.count, job.rule, map.mean_grey, shape,
-                                 positions, work.score.reserve(scores), work.share.reserve(scores)},
+                                 positions, score, share},
                   batch.stream);
   });
 }

@@ -5,6 +5,31 @@
 
 namespace nadir::cuda {
 
+/// Into 0 .. size - 1.
+NADIR_HOST_DEVICE inline int wrap(int at, int size) {
+  const int rest = at % size;
+  return rest < 0 ? rest + size : rest;
+}
+
+/// Which of several grids of width x height, and where in it.
+struct GridPlace {
+  int which = 0;
+  int row = 0;
+  int column = 0;
+};
+
+/// Of the items of a batch, which are far below 2^32: divisions of 32 bits cost a GPU a fraction of
+/// those of 64.
+NADIR_HOST_DEVICE inline GridPlace grid_place(std::int64_t item, std::int64_t width, int height) {
+  const auto at = static_cast<std::uint32_t>(item);
+  const auto columns = static_cast<std::uint32_t>(width);
+  const std::uint32_t line = at / columns;
+  const std::uint32_t which = line / static_cast<std::uint32_t>(height);
+  return {static_cast<int>(which),
+          static_cast<int>(line - which * static_cast<std::uint32_t>(height)),
+          static_cast<int>(at - line * columns)};
+}
+
 /// A plane of a batched real transform in place: rows of `width` reals, padded to the
 /// width / 2 + 1 complex values of their spectrum.
 struct PlaneShape {
@@ -18,28 +43,42 @@ struct PlaneShape {
   }
   NADIR_HOST_DEVICE std::int64_t reals() const { return 2 * complexes(); }
   NADIR_HOST_DEVICE std::int64_t at(int column, int row) const { return row * pitch() + column; }
+  /// Of the correlation at a position of `window`.
+  NADIR_HOST_DEVICE std::int64_t at_position(const Box& window, const GridPlace& place) const {
+    return at(wrap(window.left + place.column, width), wrap(window.top + place.row, height));
+  }
 };
-
-/// Into 0 .. size - 1.
-NADIR_HOST_DEVICE inline int wrap(int at, int size) {
-  const int rest = at % size;
-  return rest < 0 ? rest + size : rest;
-}
 
 struct Complex {
   float real = 0.0F;
   float imaginary = 0.0F;
 };
+NADIR_HOST_DEVICE inline Complex times_conjugate(Complex a, Complex b) {
+  return {a.real * b.real + a.imaginary * b.imaginary, a.imaginary * b.real - a.real * b.imaginary};
+}
 
 /// The planes of the map: V, V R', V R'^2.
 inline constexpr int kMapPlanes = 3;
-/// Of a template: a, a P', a P'^2, and for the weighted cosine w P / 64.
+/// Of a template: a, a P', a P'^2, and for the weighted cosine w P / 64. Of [5]: what takes part,
+/// what was seen, w |P - Pm| / 64.
 NADIR_HOST_DEVICE inline int template_planes(Formula formula) {
   return formula == Formula::kWeightedCosine ? 4 : 3;
 }
 /// Their products: V*a, VR'*a, VR'^2*a, V*aP', V*aP'^2, VR'*aP', and then V*wP, VR'*wP.
+/// Of [5]: V, VR' and VR'^2 with what takes part, V with what was seen.
 NADIR_HOST_DEVICE inline int product_planes(Formula formula) {
+  if (formula == Formula::kPaper) return 4;
   return formula == Formula::kWeightedCosine ? 8 : 6;
+}
+
+/// The map's grey at a real of a plane over `crop`; 0, a hole, behind it.
+NADIR_HOST_DEVICE inline std::uint8_t grey_at(const std::uint8_t* map, int map_width,
+                                              const Box& crop, const PlaneShape& shape,
+                                              std::int64_t item) {
+  const GridPlace place = grid_place(item, shape.pitch(), shape.height);
+  if (place.column >= crop.width || place.row >= crop.height) return 0;
+  return map[static_cast<std::int64_t>(crop.top + place.row) * map_width + crop.left +
+             place.column];
 }
 
 /// A rectangle of the map, as planes; what lies outside of it is hole.
@@ -53,12 +92,7 @@ struct MapPlanes {
 
   NADIR_HOST_DEVICE std::int64_t items() const { return shape.reals(); }
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    const auto column = static_cast<int>(item % shape.pitch());
-    const auto row = static_cast<int>(item / shape.pitch());
-    std::uint8_t grey = 0;
-    if (column < crop.width && row < crop.height) {
-      grey = map[static_cast<std::int64_t>(crop.top + row) * map_width + crop.left + column];
-    }
+    const std::uint8_t grey = grey_at(map, map_width, crop, shape, item);
     const float value = grey == 0 ? 0.0F : (grey - shift) / kGreyScale;
     planes[item] = grey == 0 ? 0.0F : 1.0F;
     planes[shape.reals() + item] = value;
@@ -79,19 +113,24 @@ struct TemplatePlanes {
 
   NADIR_HOST_DEVICE std::int64_t items() const { return count * shape.reals(); }
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    const auto which = static_cast<int>(item / shape.reals());
-    const std::int64_t at = item % shape.reals();
-    const auto plane_column = static_cast<int>(at % shape.pitch());
-    const auto plane_row = static_cast<int>(at / shape.pitch());
-    const int column = wrap(plane_column - box.left, shape.width);
-    const int row = wrap(plane_row - box.top, shape.height);
+    const GridPlace place = grid_place(item, shape.pitch(), shape.height);
+    const std::int64_t which = place.which;
+    const int column = wrap(place.column - box.left, shape.width);
+    const int row = wrap(place.row - box.top, shape.height);
     TurnedPixel pixel;
-    if (plane_column < shape.width && column < box.width && row < box.height) {
-      pixel = turned[(static_cast<std::int64_t>(which) * box.height + row) * box.width + column];
+    if (place.column < shape.width && column < box.width && row < box.height) {
+      pixel = turned[(which * box.height + row) * box.width + column];
     }
     const float p = pixel.mask * (pixel.value - stats[which].mean) / kGreyScale;
+    float* own = planes + which * template_planes(formula) * shape.reals() +
+                 shape.at(place.column, place.row);
+    if (formula == Formula::kPaper) {
+      own[0] = pixel.mask;
+      own[shape.reals()] = pixel.seen;
+      own[2 * shape.reals()] = pixel.weight * fabsf(p);
+      return;
+    }
     const float ap = pixel.seen * p;
-    float* own = planes + std::int64_t{which} * template_planes(formula) * shape.reals() + at;
     own[0] = pixel.seen;
     own[shape.reals()] = ap;
     own[2 * shape.reals()] = ap * p;
@@ -121,22 +160,20 @@ struct MultiplySpectra {
     const Complex* own = templates + which * template_planes(formula) * plane + at;
     Complex* to = products + which * product_planes(formula) * plane + at;
     const Complex a = own[0];
-    const Complex p = own[plane];
+    const Complex p = own[plane];  // of [5], what was seen
     to[0] = times_conjugate(mask, a);
     to[plane] = times_conjugate(value, a);
     to[2 * plane] = times_conjugate(squares, a);
+    if (formula == Formula::kPaper) {
+      to[3 * plane] = times_conjugate(mask, p);
+      return;
+    }
     to[3 * plane] = times_conjugate(mask, p);
     to[4 * plane] = times_conjugate(mask, own[2 * plane]);
     to[5 * plane] = times_conjugate(value, p);
     if (formula != Formula::kWeightedCosine) return;
     to[6 * plane] = times_conjugate(mask, own[3 * plane]);
     to[7 * plane] = times_conjugate(value, own[3 * plane]);
-  }
-
- private:
-  NADIR_HOST_DEVICE static Complex times_conjugate(Complex a, Complex b) {
-    return {a.real * b.real + a.imaginary * b.imaginary,
-            a.imaginary * b.real - a.real * b.imaginary};
   }
 };
 
@@ -156,12 +193,10 @@ struct AssembleScores {
     return static_cast<std::int64_t>(count) * window.width * window.height;
   }
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    const auto column = static_cast<int>(item % window.width);
-    const auto row = static_cast<int>(item / window.width % window.height);
-    const std::int64_t which = item / window.width / window.height;
-    const std::int64_t at =
-        shape.at(wrap(window.left + column, shape.width), wrap(window.top + row, shape.height));
-    const float* own = correlations + which * product_planes(rule.formula) * shape.reals() + at;
+    const GridPlace place = grid_place(item, window.width, window.height);
+    const std::int64_t which = place.which;
+    const float* own = correlations + which * product_planes(rule.formula) * shape.reals() +
+                       shape.at_position(window, place);
     const double compared = share_of(sum(own, 0), stats[which].total_seen);
     share[item] = static_cast<float>(compared);
     score[item] = static_cast<float>(is_enough(rule, compared) ? score_at(own, stats[which].mean)
@@ -171,7 +206,7 @@ struct AssembleScores {
  private:
   NADIR_HOST_DEVICE double sum(const float* own, int plane) const {
     // The transforms there and back multiply by the number of pixels.
-    return own[plane * shape.reals()] / (static_cast<double>(shape.width) * shape.height);
+    return own[plane * shape.reals()] * (1.0 / (static_cast<double>(shape.width) * shape.height));
   }
 
   NADIR_HOST_DEVICE double score_at(const float* own, float local_shift) const {

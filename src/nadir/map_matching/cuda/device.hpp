@@ -11,6 +11,7 @@
 
 #include "nadir/map_matching/cuda/correlation_kernels.hpp"
 #include "nadir/map_matching/cuda/direct_kernels.hpp"
+#include "nadir/map_matching/cuda/level_kernels.hpp"
 #include "nadir/map_matching/cuda/peak_kernels.hpp"
 #include "nadir/map_matching/cuda/pose_kernels.hpp"
 #include "nadir/map_matching/cuda/turn_kernels.hpp"
@@ -20,13 +21,15 @@ namespace nadir::cuda {
 /// All that can be launched. A kernel is a value with its arguments in it. It either does `items()`
 /// independent things by `run(item)`, or reduces each of `blocks()`: `partial(block, thread)` of
 /// kThreads threads, added pairwise by `merge`, handed to `finish(block, sum)`.
-using Kernel =
-    std::variant<TurnTemplates, SumTemplates, MapPlanes, TemplatePlanes, MultiplySpectra,
-                 AssembleScores, PadMap, DirectSurfaces, ScorePoses, ScoreDeviations, MarkPeaks>;
+using Kernel = std::variant<TurnTemplates, SumTemplates, MapPlanes, TemplatePlanes, MultiplySpectra,
+                            AssembleScores, SumDeviations, WindowMoments, FindLevels, LevelPlanes,
+                            MultiplyLevels, AddLevels, PadMap, DirectSurfaces, ScorePoses,
+                            ScoreDeviations, MarkPeaks>;
 
 template <class Body>
 inline constexpr bool kReduces =
-    std::is_same_v<Body, SumTemplates> || std::is_same_v<Body, ScorePoses> ||
+    std::is_same_v<Body, SumTemplates> || std::is_same_v<Body, SumDeviations> ||
+    std::is_same_v<Body, FindLevels> || std::is_same_v<Body, ScorePoses> ||
     std::is_same_v<Body, ScoreDeviations>;
 
 /// Real two-dimensional transforms of many planes at once, in place and not normalised.

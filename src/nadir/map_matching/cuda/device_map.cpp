@@ -58,7 +58,8 @@ Rule rule_of(const MatchingOptions& options) {
 }
 
 bool is_correlation(const Rule& rule) {
-  return !rule.whole_square && rule.formula != Formula::kSad && rule.formula != Formula::kPaper;
+  if (rule.formula == Formula::kPaper) return true;  // a function of many: level_kernels.hpp
+  return !rule.whole_square && rule.formula != Formula::kSad;
 }
 
 std::vector<std::uint8_t> with_holes(const ChannelImage& channel) {

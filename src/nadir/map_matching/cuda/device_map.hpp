@@ -28,6 +28,16 @@ struct MapSpectra {
   Memory<float> planes;
 };
 
+/// Spectra of LevelPlanes over the part of the map that `part` is of, in groups of levels: made
+/// when a search first needs them and kept, as many as fit.
+struct LevelSpectra {
+  const MapSpectra* part = nullptr;  ///< null: what is held is of no use
+  PlaneShape shape;
+  std::vector<Memory<float>> groups;
+  std::vector<int> first_level;  ///< of each group; -1 = nothing
+  std::size_t next = 0;          ///< the group to give up where no more fit
+};
+
 /// What one stream works in. Grows to the largest search and stays.
 struct StreamWork {
   explicit StreamWork(Device& device)
@@ -35,6 +45,11 @@ struct StreamWork {
         stats(device),
         template_planes(device),
         product_planes(device),
+        paper_stats(device),
+        mean(device),
+        norm(device),
+        ranges(device),
+        level_planes(device),
         pixels(device),
         first(device),
         score(device),
@@ -44,11 +59,17 @@ struct StreamWork {
         staged_pixels(device),
         staged_first(device),
         staged_stats(device),
+        staged_ranges(device),
         staged_scores(device) {}
   Memory<TurnedPixel> turned;
   Memory<TemplateStats> stats;
   Memory<float> template_planes;
   Memory<float> product_planes;
+  Memory<PaperStats> paper_stats;
+  Memory<float> mean;
+  Memory<float> norm;
+  Memory<LevelRange> ranges;
+  Memory<float> level_planes;
   Memory<GridPixel> pixels;
   Memory<int> first;
   Memory<float> score;
@@ -58,12 +79,15 @@ struct StreamWork {
   Staging<GridPixel> staged_pixels;
   Staging<int> staged_first;
   Staging<TemplateStats> staged_stats;
+  Staging<LevelRange> staged_ranges;
   Staging<float> staged_scores;
   std::unique_ptr<BatchedFft> template_fft;
   std::unique_ptr<BatchedFft> product_fft;
   PlaneShape fft_shape;  ///< that the two were made for
   int fft_batch = 0;
   Formula fft_formula = Formula::kZeroMean;
+  std::unique_ptr<BatchedFft> level_fft;
+  PlaneShape level_shape;  ///< likewise
 };
 
 /// A map on a device, and all that is kept there for it: the pixels, uploaded once, their spectra,
@@ -82,6 +106,7 @@ struct DeviceMap : PreparedMap {
   QuadMap quad_map;
   MapSpectra whole{*device};  ///< of searches over most of the map
   MapSpectra part{*device};   ///< of the last search in a window
+  LevelSpectra levels;
   std::array<StreamWork, Device::kStreams> work{StreamWork(*device), StreamWork(*device)};
   Memory<std::uint8_t> padded{*device};
   Memory<Heading> headings{*device};

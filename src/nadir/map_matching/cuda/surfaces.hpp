@@ -36,11 +36,17 @@ class SurfaceSink {
 using FillTemplates = std::function<void(const Batch& batch, StreamWork& work)>;
 
 /// All headings by FFT: three (four) transforms of each template, six (eight) correlations with the
-/// spectra of the map, which are computed once.
+/// spectra of the map, which are computed once. For [5] three, four, and one for each grey level
+/// that window means take.
 void correlate_surfaces(DeviceMap& map, const SurfaceJob& job, const FillTemplates& fill,
                         SurfaceSink& sink);
 
-/// The same scores, and those that are no correlation, pixel by pixel.
+/// The scores of [5] of a batch, whose templates are transformed and correlated with `spectra`,
+/// into StreamWork::score and share. `positions`: the window, relative to the spectra's rectangle.
+void score_by_levels(DeviceMap& map, const SurfaceJob& job, const MapSpectra& spectra,
+                     const Batch& batch, const Box& positions);
+
+/// `sad`, and `ssd` where holes take part, pixel by pixel.
 void sum_surfaces(DeviceMap& map, const SurfaceJob& job, std::span<const RotatedTemplate> templates,
                   SurfaceSink& sink);
 
