@@ -11,25 +11,6 @@ NADIR_HOST_DEVICE inline int wrap(int at, int size) {
   return rest < 0 ? rest + size : rest;
 }
 
-/// Which of several grids of width x height, and where in it.
-struct GridPlace {
-  int which = 0;
-  int row = 0;
-  int column = 0;
-};
-
-/// Of the items of a batch, which are far below 2^32: divisions of 32 bits cost a GPU a fraction of
-/// those of 64.
-NADIR_HOST_DEVICE inline GridPlace grid_place(std::int64_t item, std::int64_t width, int height) {
-  const auto at = static_cast<std::uint32_t>(item);
-  const auto columns = static_cast<std::uint32_t>(width);
-  const std::uint32_t line = at / columns;
-  const std::uint32_t which = line / static_cast<std::uint32_t>(height);
-  return {static_cast<int>(which),
-          static_cast<int>(line - which * static_cast<std::uint32_t>(height)),
-          static_cast<int>(at - line * columns)};
-}
-
 /// A plane of a batched real transform in place: rows of `width` reals, padded to the
 /// width / 2 + 1 complex values of their spectrum.
 struct PlaneShape {

@@ -50,15 +50,16 @@ struct StreamWork {
         norm(device),
         ranges(device),
         level_planes(device),
-        pixels(device),
-        first(device),
+        words(device),
+        rows(device),
+        templates(device),
         score(device),
         share(device),
         keys(device),
         staged_turned(device),
-        staged_pixels(device),
-        staged_first(device),
-        staged_stats(device),
+        staged_words(device),
+        staged_rows(device),
+        staged_templates(device),
         staged_ranges(device),
         staged_scores(device) {}
   Memory<TurnedPixel> turned;
@@ -70,15 +71,16 @@ struct StreamWork {
   Memory<float> norm;
   Memory<LevelRange> ranges;
   Memory<float> level_planes;
-  Memory<GridPixel> pixels;
-  Memory<int> first;
+  Memory<TemplateWord> words;
+  Memory<TemplateRow> rows;
+  Memory<TemplateRows> templates;
   Memory<float> score;
   Memory<float> share;
   Memory<PeakKey> keys;
   Staging<TurnedPixel> staged_turned;
-  Staging<GridPixel> staged_pixels;
-  Staging<int> staged_first;
-  Staging<TemplateStats> staged_stats;
+  Staging<TemplateWord> staged_words;
+  Staging<TemplateRow> staged_rows;
+  Staging<TemplateRows> staged_templates;
   Staging<LevelRange> staged_ranges;
   Staging<float> staged_scores;
   std::unique_ptr<BatchedFft> template_fft;
@@ -108,7 +110,7 @@ struct DeviceMap : PreparedMap {
   MapSpectra part{*device};   ///< of the last search in a window
   LevelSpectra levels;
   std::array<StreamWork, Device::kStreams> work{StreamWork(*device), StreamWork(*device)};
-  Memory<std::uint8_t> padded{*device};
+  Memory<float> padded{*device};
   Memory<Heading> headings{*device};
   Memory<std::uint8_t> local{*device};
   Memory<float> sampled{*device};

@@ -5,174 +5,180 @@
 
 namespace nadir::cuda {
 
-/// A rectangle of the map with holes around it, so that no position reads outside.
+/// Pixels that are read as one 16-byte word.
+inline constexpr int kWord = 4;
+struct alignas(16) PixelWord {
+  float value[kWord] = {};
+};
+
+/// A rectangle of the map with holes around it, so that no position reads outside; as single
+/// precision, so that no pair of pixels converts. Two planes: greys, and 1 where the map was seen.
 struct PadMap {
   const std::uint8_t* map = nullptr;  ///< 0 = hole
   int map_width = 0;
   int map_height = 0;
-  Box area;  ///< may reach beyond the map on all sides
-  std::uint8_t* padded = nullptr;
+  Box area;           ///< may reach beyond the map on all sides
+  float hole = 0.0F;  ///< the grey of what was not seen
+  float* grey = nullptr;
+  float* seen = nullptr;
 
   NADIR_HOST_DEVICE std::int64_t items() const {
     return static_cast<std::int64_t>(area.width) * area.height;
   }
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    const int column = area.left + static_cast<int>(item % area.width);
-    const int row = area.top + static_cast<int>(item / area.width);
+    const GridPlace place = grid_place(item, area.width, area.height);
+    const int column = area.left + place.column;
+    const int row = area.top + place.row;
     const bool inside = column >= 0 && row >= 0 && column < map_width && row < map_height;
-    padded[item] =
+    const std::uint8_t pixel =
         inside ? map[static_cast<std::int64_t>(row) * map_width + column] : std::uint8_t{0};
+    grey[item] = pixel == 0 ? hole : static_cast<float>(pixel);
+    seen[item] = pixel == 0 ? 0.0F : 1.0F;
   }
 };
 
-/// A pixel of a turned template that takes part, as one 16-byte word.
-struct alignas(16) GridPixel {
-  int offset = 0;  ///< of the map's pixel below it from the map's pixel below the robot
-  float value = 0.0F;
-  float weight = 0.0F;
-  float seen = 0.0F;  ///< 0 where the template has a hole
+/// kWord neighbouring pixels of a row of a turned template.
+struct alignas(16) TemplateWord {
+  float grey[kWord] = {};
+  std::uint32_t takes_part = 0;  ///< a bit for each pixel; holes do where they are white
+  std::uint32_t seen = 0;        ///< likewise: no hole
 };
 
-/// Every score by summation over the pixels of each template at each position, as the paper has it.
-/// An item is kColumns positions of one row; neighbouring items read neighbouring map pixels.
-struct DirectSurfaces {
-  static constexpr int kColumns = 4;
-  static constexpr int kLanes = 32;  ///< between the columns of an item
-  static constexpr int kChunk =
-      256;  ///< pixels summed in single precision before they join the sum
+/// A row of a turned template, from its first word that takes part to its last.
+struct TemplateRow {
+  int offset = 0;  ///< in the padded map, from the pixel below the box's first to the row's first
+  int first = 0;   ///< of its words
+  int end = 0;
+};
 
-  const std::uint8_t* map = nullptr;  ///< padded: its first pixel is the first that is needed
-  int pitch = 0;
-  int origin = 0;  ///< index of the map's pixel below the window's first position
-  const GridPixel* pixels = nullptr;  ///< of all templates
-  const int* first = nullptr;         ///< of each template in `pixels`, and the end
-  const TemplateStats* stats = nullptr;
+struct TemplateRows {
+  int first = 0;  ///< of its rows
+  int end = 0;
+  double count = 0.0;       ///< pixels that take part
+  double total_seen = 0.0;  ///< of them not holes
+};
+
+/// `a * b + c` for a `b` that is 0 or 1: the product is exact, and one instruction rounds as two.
+NADIR_HOST_DEVICE inline float add_where(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+  return __fmaf_rn(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+/// The distances |R - P| and (R - P)^2 (sad and ssd, which weigh no pixel), summed over the pixels
+/// of each template at each position. An item is kColumns neighbouring positions of one row: a word
+/// of the map serves them all, and the loop does little but add.
+struct DirectSurfaces {
+  static constexpr int kColumns = 8;
+  static constexpr int kPixels = kColumns + kWord;  ///< of the map, below a word at all columns
+
+  const float* grey = nullptr;  ///< PadMap
+  const float* seen = nullptr;
+  int pitch = 0;                        ///< a multiple of kWord
+  const TemplateWord* words = nullptr;  ///< and one behind the last
+  const TemplateRow* rows = nullptr;
+  const TemplateRows* templates = nullptr;
   int count = 0;  ///< templates
   int width = 0;  ///< of the window
   int height = 0;
   Rule rule;
-  float map_shift = 0.0F;
   float* score = nullptr;
   float* share = nullptr;
 
-  NADIR_HOST_DEVICE int groups() const {
-    return (width + kColumns * kLanes - 1) / (kColumns * kLanes);
-  }
+  NADIR_HOST_DEVICE int groups() const { return (width + kColumns - 1) / kColumns; }
   NADIR_HOST_DEVICE std::int64_t items() const {
-    return static_cast<std::int64_t>(count) * height * groups() * kLanes;
+    return static_cast<std::int64_t>(count) * height * groups();
   }
 
   NADIR_HOST_DEVICE void run(std::int64_t item) const {
-    switch (rule.formula) {
-      case Formula::kSsd:
-        return run_as<Formula::kSsd>(item);
-      case Formula::kSad:
-        return run_as<Formula::kSad>(item);
-      case Formula::kCosine:
-        return run_as<Formula::kCosine>(item);
-      case Formula::kWeightedCosine:
-        return run_as<Formula::kWeightedCosine>(item);
-      case Formula::kPaper:
-        return run_as<Formula::kPaper>(item);
-      case Formula::kZeroMean:
-        return run_as<Formula::kZeroMean>(item);
-    }
+    const bool squares = rule.formula == Formula::kSsd;
+    if (rule.whole_square) return squares ? run_as<true, true>(item) : run_as<false, true>(item);
+    return squares ? run_as<true, false>(item) : run_as<false, false>(item);
   }
 
  private:
-  struct Place {
-    int which = 0;
-    int row = 0;
-    int column = 0;  ///< the first of kColumns
-    Shifts shifts;
-  };
-
-  template <Formula Which>
+  template <bool Squares, bool WholeSquare>
   NADIR_HOST_DEVICE void run_as(std::int64_t item) const {
-    Place place;
-    const auto lane = static_cast<int>(item % kLanes);
-    const auto group = static_cast<int>(item / kLanes % groups());
-    place.column = group * kColumns * kLanes + lane;
-    place.row = static_cast<int>(item / kLanes / groups() % height);
-    place.which = static_cast<int>(item / kLanes / groups() / height);
-    place.shifts = shifts_of(place.which);
-    Sums<double> sums[kColumns];
-    sum_pixels<Which>(place, sums);
-    PaperMoments moments[kColumns];
-    if constexpr (Which == Formula::kPaper) {
-      for (int c = 0; c < kColumns; ++c) moments[c] = paper_moments(sums[c]);
-      sum_deviations(place, moments, sums);
+    const GridPlace place = grid_place(item, groups(), height);
+    const int column = place.column * kColumns;
+    const int below = place.row * pitch + column;
+    const TemplateRows own = templates[place.which];
+    double distance[kColumns] = {};
+    float compared[kColumns] = {};  // a count: exact
+    for (int i = own.first; i < own.end; ++i) {
+      float sum[kColumns] = {};  // of a row in single precision
+      sum_row<Squares, WholeSquare>(rows[i], below + rows[i].offset, sum, compared);
+      for (int c = 0; c < kColumns; ++c) distance[c] += sum[c];
     }
-    for (int c = 0; c < kColumns; ++c) {
-      if (place.column + c * kLanes < width) write(place, c, sums[c]);
+    for (int c = 0; c < kColumns && column + c < width; ++c) {
+      const std::int64_t at =
+          (static_cast<std::int64_t>(place.which) * height + place.row) * width + column + c;
+      write(at, own, distance[c], compared[c]);
     }
   }
 
-  NADIR_HOST_DEVICE Shifts shifts_of(int which) const {
-    // The cosines are of the grey values themselves.
-    const bool shifted = rule.formula == Formula::kZeroMean || rule.formula == Formula::kPaper;
-    return shifted ? Shifts{map_shift, stats[which].mean} : Shifts{};
+  template <bool Squares, bool WholeSquare>
+  NADIR_HOST_DEVICE void sum_row(const TemplateRow& row, int below, float* sum,
+                                 float* compared) const {
+    // The map's pixels below the word, and one word more: loads are a turn ahead of their use.
+    float r[kPixels + kWord];
+    float v[kPixels + kWord];
+    for (int i = 0; i < kPixels; i += kWord) load_map(below, i, r, v);
+    TemplateWord word = words[row.first];
+    // Four times: then every word of the map is back where it was, and none has to be moved.
+    NADIR_UNROLL(4)
+    for (int i = row.first; i < row.end; ++i) {
+      load_map(below, kPixels, r, v);
+      const TemplateWord next = words[i + 1];
+      add_word<Squares, WholeSquare>(word, r, v, sum, compared);
+      word = next;
+      for (int k = 0; k < kPixels; ++k) {
+        r[k] = r[k + kWord];
+        v[k] = v[k + kWord];
+      }
+      below += kWord;
+    }
   }
 
-  /// The map below the robot; a column beyond the window stays on its last position.
-  NADIR_HOST_DEVICE const std::uint8_t* below(const Place& place, int c) const {
-    const int column = place.column + c * kLanes;
-    return map + origin + static_cast<std::int64_t>(place.row) * pitch +
-           (column < width ? column : width - 1);
+  NADIR_HOST_DEVICE void load_map(int below, int i, float* r, float* v) const {
+    load(grey + below + i, r + i);
+    load(seen + below + i, v + i);
   }
 
-  NADIR_HOST_DEVICE Pair pair_of(const GridPixel& pixel, std::uint8_t grey) const {
-    const bool on_map = grey != 0;
-    const float part = rule.whole_square ? 1.0F : on_map ? pixel.seen : 0.0F;
-    return {on_map ? static_cast<float>(grey) : kWhite, pixel.value,
-            on_map || rule.whole_square ? pixel.weight : 0.0F, part};
+  NADIR_HOST_DEVICE static void load(const float* from, float* to) {
+    const PixelWord word = *reinterpret_cast<const PixelWord*>(from);
+    for (int i = 0; i < kWord; ++i) to[i] = word.value[i];
   }
 
-  template <Formula Which>
-  NADIR_HOST_DEVICE void sum_pixels(const Place& place, Sums<double>* sums) const {
-    const std::uint8_t* base[kColumns];
-    for (int c = 0; c < kColumns; ++c) base[c] = below(place, c);
-    const int end = first[place.which + 1];
-    for (int begin = first[place.which]; begin < end; begin += kChunk) {
-      Sums<float> chunk[kColumns];
-      const int stop = begin + kChunk < end ? begin + kChunk : end;
-      for (int i = begin; i < stop; ++i) {
-        const GridPixel pixel = pixels[i];
+  /// Adds a word of the template to all columns. All threads of a warp are at the same one, so that
+  /// leaving out a pixel costs no divergence.
+  template <bool Squares, bool WholeSquare>
+  NADIR_HOST_DEVICE static void add_word(const TemplateWord& word, const float* r, const float* v,
+                                         float* sum, float* compared) {
+    for (int k = 0; k < kWord; ++k) {
+      if ((word.takes_part >> k & 1U) != 0) {
         for (int c = 0; c < kColumns; ++c) {
-          const std::uint8_t grey = base[c][pixel.offset];
-          if (grey != 0) chunk[c].seen += pixel.seen;
-          add_pair<Which>(chunk[c], pair_of(pixel, grey), place.shifts);
+          const float difference = r[k + c] - word.grey[k];
+          const float distance = Squares ? difference * difference : fabsf(difference);
+          sum[c] = WholeSquare ? sum[c] + distance : add_where(distance, v[k + c], sum[c]);
+          if (!WholeSquare) compared[c] += v[k + c];
         }
       }
-      for (int c = 0; c < kColumns; ++c) add(sums[c], chunk[c]);
-    }
-  }
-
-  NADIR_HOST_DEVICE void sum_deviations(const Place& place, const PaperMoments* moments,
-                                        Sums<double>* sums) const {
-    const std::uint8_t* base[kColumns];
-    for (int c = 0; c < kColumns; ++c) base[c] = below(place, c);
-    const int end = first[place.which + 1];
-    for (int begin = first[place.which]; begin < end; begin += kChunk) {
-      float chunk[kColumns] = {};
-      const int stop = begin + kChunk < end ? begin + kChunk : end;
-      for (int i = begin; i < stop; ++i) {
-        const GridPixel pixel = pixels[i];
-        for (int c = 0; c < kColumns; ++c) {
-          add_deviation(chunk[c], pair_of(pixel, base[c][pixel.offset]), place.shifts, moments[c]);
-        }
+      if (WholeSquare && (word.seen >> k & 1U) != 0) {
+        for (int c = 0; c < kColumns; ++c) compared[c] += v[k + c];
       }
-      for (int c = 0; c < kColumns; ++c) sums[c].distance += chunk[c];
     }
   }
 
-  NADIR_HOST_DEVICE void write(const Place& place, int c, const Sums<double>& sums) const {
-    const std::int64_t at = (static_cast<std::int64_t>(place.which) * height + place.row) * width +
-                            place.column + static_cast<std::int64_t>(c) * kLanes;
-    const double compared = share_of(sums.seen, stats[place.which].total_seen);
-    share[at] = static_cast<float>(compared);
-    score[at] =
-        static_cast<float>(is_enough(rule, compared) ? score_of(rule.formula, sums) : undefined());
+  NADIR_HOST_DEVICE void write(std::int64_t at, const TemplateRows& own, double distance,
+                               double compared) const {
+    const double part = share_of(compared, own.total_seen);
+    const double pixels = rule.whole_square ? own.count : compared;
+    share[at] = static_cast<float>(part);
+    score[at] = static_cast<float>(is_enough(rule, part) && pixels > 0.0 ? -distance / pixels
+                                                                         : undefined());
   }
 };
 

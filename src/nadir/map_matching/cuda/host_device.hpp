@@ -9,3 +9,11 @@
 #else
 #define NADIR_HOST_DEVICE
 #endif
+
+/// Before a loop: the GPU's compiler writes its body `times` times.
+#if defined(__CUDA_ARCH__)
+#define NADIR_PRAGMA(text) _Pragma(#text)
+#define NADIR_UNROLL(times) NADIR_PRAGMA(unroll times)
+#else
+#define NADIR_UNROLL(times)
+#endif
