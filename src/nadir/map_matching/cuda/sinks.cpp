@@ -28,13 +28,18 @@ bool better(const Place& a, const Place& b) {
 }  // namespace
 
 DownloadSink::DownloadSink(Device& device, const SurfaceJob& job, const PixelWindow& asked)
-    : surfaces(static_cast<std::size_t>(job.count),
-               {Raster<float>(asked.width, asked.height, std::numeric_limits<float>::quiet_NaN()),
-                Raster<float>(asked.width, asked.height)}),
-      device_(device),
+    : device_(device),
       window_(job.window),
       column_(job.window.left - asked.left),
-      row_(job.window.top - asked.top) {}
+      row_(job.window.top - asked.top) {
+  // One by one: a copy of a surface costs as much as the GPU takes to compute it.
+  surfaces.reserve(static_cast<std::size_t>(job.count));
+  for (int i = 0; i < job.count; ++i) {
+    surfaces.push_back(
+        {Raster<float>(asked.width, asked.height, std::numeric_limits<float>::quiet_NaN()),
+         Raster<float>(asked.width, asked.height)});
+  }
+}
 
 void DownloadSink::begin(const Batch& batch, StreamWork& work) {
   const std::size_t count = positions(window_) * static_cast<std::size_t>(batch.count);
