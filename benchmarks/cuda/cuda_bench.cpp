@@ -3,6 +3,9 @@
 // of the size of the Aero-Ground run. Results are compared with the reference before a time counts.
 //   nadir_bench_cuda             on the GPU; says so and ends where none is usable
 //   nadir_bench_cuda --emulate   the same program on the CPU and on a tiny place: a test of itself
+// --json prints {"device", "cuda", "copy_bytes_per_s", "tasks": [{"task", "median_s", "floor_s"}]}
+// on stdout instead, where nothing is known null; the exit code is 0 then only if something was
+// measured.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +13,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "map_matching/emulated_device.hpp"
 #include "map_matching/random_maps.hpp"
@@ -82,18 +86,57 @@ void require_near(double value, double reference, double tolerance, const std::s
   std::exit(1);
 }
 
-void report(const std::string& task, double seconds, double floor_s) {
-  if (floor_s > 0.0) {
-    std::printf("%-44s %9.3f ms   floor %7.3f ms   ratio %5.2f\n", task.c_str(), 1e3 * seconds,
-                1e3 * floor_s, seconds / floor_s);
-  } else {
-    std::printf("%-44s %9.3f ms\n", task.c_str(), 1e3 * seconds);
+/// What was measured: printed line by line, or as one document at the end.
+class Report {
+ public:
+  explicit Report(bool json) : json_(json) {}
+
+  void say(const std::string& text) const {
+    if (!json_) std::puts(text.c_str());
   }
-  std::fflush(stdout);
-}
+  /// `floor_s` 0 = unknown.
+  void add(const std::string& task, double seconds, double floor_s) {
+    timings_.push_back({task, seconds, floor_s});
+    if (json_) return;
+    std::printf("%-44s %9.3f ms", task.c_str(), 1e3 * seconds);
+    if (floor_s > 0.0) {
+      std::printf("   floor %7.3f ms   ratio %5.2f", 1e3 * floor_s, seconds / floor_s);
+    }
+    std::puts("");
+    std::fflush(stdout);
+  }
+  void end(const std::string& device, double bytes_per_s) const {
+    if (!json_) return;
+    std::printf("{\"device\": \"%s\", \"cuda\": \"%s\", \"copy_bytes_per_s\": %s, \"tasks\": [",
+                device.c_str(), cuda_version().c_str(), number(bytes_per_s).c_str());
+    for (std::size_t i = 0; i < timings_.size(); ++i) {
+      std::printf("%s{\"task\": \"%s\", \"median_s\": %s, \"floor_s\": %s}", i == 0 ? "" : ", ",
+                  timings_[i].task.c_str(), number(timings_[i].seconds).c_str(),
+                  number(timings_[i].floor_s).c_str());
+    }
+    std::puts("]}");
+  }
+
+ private:
+  struct Timing {
+    std::string task;
+    double seconds = 0.0;
+    double floor_s = 0.0;
+  };
+
+  static std::string number(double value) {
+    if (!(value > 0.0)) return "null";
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.9g", value);
+    return text;
+  }
+
+  bool json_;
+  std::vector<Timing> timings_;
+};
 
 /// All headings, the best places only: the whole-map search.
-void whole_map(const Bench& bench, Score score) {
+void whole_map(const Bench& bench, Score score, Report& report) {
   const MapIndex map(bench.map, options_of(score));
   const Template local = make_template(bench.local, map.options());
   const PixelWindow window{0, 0, map.channel().value.width(), map.channel().value.height()};
@@ -119,12 +162,12 @@ void whole_map(const Bench& bench, Score score) {
                                 bench.place.local_size, bench.place.headings) /
                 bench.bytes_per_s
           : 0.0;
-  report("whole map, " + std::to_string(yaws.size()) + " headings, " + to_string(score), seconds,
-         floor_s);
+  report.add("whole map, " + std::to_string(yaws.size()) + " headings, " + to_string(score),
+             seconds, floor_s);
 }
 
 /// Table I of the paper: every position of the map, one heading, every score.
-void table_one(const Bench& bench, Score score) {
+void table_one(const Bench& bench, Score score, Report& report) {
   MatchingOptions options = options_of(score);
   options.channel = Channel::kGrey;
   const MapIndex map(bench.map, options);
@@ -142,10 +185,10 @@ void table_one(const Bench& bench, Score score) {
     require_near(surfaces[0].score.at(sample.left + i % 3, sample.top + i / 3),
                  expected[0].score.at(i % 3, i / 3), 1e-3, "Table I, " + to_string(score));
   }
-  report("Table I, every position, " + to_string(score), seconds, 0.0);
+  report.add("Table I, every position, " + to_string(score), seconds, 0.0);
 }
 
-void particles(const Bench& bench, Score score, std::size_t count) {
+void particles(const Bench& bench, Score score, std::size_t count, Report& report) {
   const MapIndex map(bench.map, options_of(score));
   const Template local = make_template(bench.local, map.options());
   const RandomStream random(1, 1);
@@ -164,40 +207,62 @@ void particles(const Bench& bench, Score score, std::size_t count) {
   for (std::size_t i = 0; i < some.size(); ++i) {
     require_near(scores[i].score, expected[i].score, 3e-4, "particles, " + to_string(score));
   }
-  report(std::to_string(count) + " particles, exact, " + to_string(score), seconds, 0.0);
+  report.add(std::to_string(count) + " particles, exact, " + to_string(score), seconds, 0.0);
 }
 
-void run(const Bench& bench) {
+void run(const Bench& bench, Report& report) {
   if (bench.bytes_per_s > 0.0) {
-    std::printf("a copy on the device moves %.0f GB/s (read and written)\n",
-                1e-9 * bench.bytes_per_s);
+    report.say("a copy on the device moves " +
+               std::to_string(std::lround(1e-9 * bench.bytes_per_s)) + " GB/s (read and written)");
   }
-  for (const Score score : {Score::kZwncc, Score::kZncc, Score::kWncc}) whole_map(bench, score);
-  for (const auto& [score, name] : kScoreNames) table_one(bench, score);
-  particles(bench, Score::kZwncc, bench.place.poses);
-  particles(bench, Score::kZwncc, 10 * bench.place.poses);
-  particles(bench, Score::kWnccPaper, bench.place.poses);
+  for (const Score score : {Score::kZwncc, Score::kZncc, Score::kWncc}) {
+    whole_map(bench, score, report);
+  }
+  for (const auto& [score, name] : kScoreNames) table_one(bench, score, report);
+  particles(bench, Score::kZwncc, bench.place.poses, report);
+  particles(bench, Score::kZwncc, 10 * bench.place.poses, report);
+  particles(bench, Score::kWnccPaper, bench.place.poses, report);
+}
+
+int run_emulated(Report& report) {
+  const cuda::DeviceBackend emulated([] { return std::make_unique<test::EmulatedDevice>(); });
+  report.say("EMULATED on the CPU, on a tiny place: these times say nothing about a GPU");
+  run(make_bench(emulated, {80, 110, 40, 4, 20, 1}, 0.0), report);
+  report.end("emulated", 0.0);
+  return 0;
+}
+
+int run_on_gpu(Report& report, bool json) {
+  const CudaStatus status = cuda_status();
+  const auto* gpu =
+      status.usable ? dynamic_cast<const cuda::DeviceBackend*>(&cuda_backend()) : nullptr;
+  if (gpu == nullptr) {
+    std::fprintf(json ? stderr : stdout, "nothing measured: CUDA cannot be used here: %s\n",
+                 status.detail.c_str());
+    return json ? 1 : 0;
+  }
+  report.say(status.detail + "; CUDA " + cuda_version());
+  const double bytes_per_s = cuda::gpu_copy_bytes_per_s();
+  run(make_bench(*gpu, {}, bytes_per_s), report);
+  report.end(status.detail, bytes_per_s);
+  return 0;
 }
 
 }  // namespace
 }  // namespace nadir
 
 int main(int argc, char** argv) {
-  using namespace nadir;
-  if (argc == 2 && std::string(argv[1]) == "--emulate") {
-    const cuda::DeviceBackend emulated([] { return std::make_unique<test::EmulatedDevice>(); });
-    std::puts("EMULATED on the CPU, on a tiny place: these times say nothing about a GPU");
-    run(make_bench(emulated, {80, 110, 40, 4, 20, 1}, 0.0));
-    return 0;
+  bool json = false;
+  bool emulate = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    json = json || argument == "--json";
+    emulate = emulate || argument == "--emulate";
+    if (argument != "--json" && argument != "--emulate") {
+      std::fprintf(stderr, "usage: %s [--emulate] [--json]\n", argv[0]);
+      return 2;
+    }
   }
-  const CudaStatus status = cuda_status();
-  const auto* gpu =
-      status.usable ? dynamic_cast<const cuda::DeviceBackend*>(&cuda_backend()) : nullptr;
-  if (gpu == nullptr) {
-    std::printf("nothing measured: CUDA cannot be used here: %s\n", status.detail.c_str());
-    return 0;
-  }
-  std::printf("%s; CUDA %s\n", status.detail.c_str(), cuda_version().c_str());
-  run(make_bench(*gpu, {}, cuda::gpu_copy_bytes_per_s()));
-  return 0;
+  nadir::Report report(json);
+  return emulate ? nadir::run_emulated(report) : nadir::run_on_gpu(report, json);
 }
