@@ -117,6 +117,14 @@ void DriveMapping::take(const DriveFrame& frame) {
     throw Error(error.kind(), fmt::format("frame {}: {}", frame.number, error.what()));
   }
   frames_.push_back(std::move(done));
+  refuse_wrong_poses();
+}
+
+void DriveMapping::refuse_wrong_poses() const {
+  const PoseFit fit = mapper_.pose_fit();
+  if (!is_gross(fit)) return;
+  throw Error(ErrorKind::kInput, pose_misfit(fit).value(), drive_.pose_file.string(),
+              "--set ground_mapping.check_poses=off maps all the same");
 }
 
 std::optional<RenderedMap> DriveMapping::map_at(std::size_t position,
@@ -163,6 +171,9 @@ std::vector<std::string> DriveMapping::warnings() const {
     for (const std::string& warning : frame.statistics.warnings) count(said, warning, 1);
   }
   std::vector<std::string> warnings;
+  if (const auto misfit = pose_misfit(mapper_.pose_fit())) {
+    warnings.push_back(drive_.pose_file.string() + ": " + *misfit);
+  }
   for (const auto& [sentence, times] : said) {
     warnings.push_back(times > 1 ? fmt::format("{} ({} times)", sentence, times) : sentence);
   }

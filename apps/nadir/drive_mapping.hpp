@@ -50,11 +50,12 @@ class DriveMapping {
 
   /// Takes the frames up to and with this position, calling `progress(frames done)` after each, and
   /// renders; nothing where no frame so far had a point. Positions must increase. Throws
-  /// Interrupted.
+  /// Interrupted, and Error (input) where the poses plainly do not fit the images.
   std::optional<RenderedMap> map_at(std::size_t position,
                                     const std::function<void(int)>& progress = {});
 
   const std::vector<MappedFrame>& frames() const { return frames_; }
+  PoseFit pose_fit() const { return mapper_.pose_fit(); }
   /// All that was seen within 18 m around the last pose, walls and hedges included; nothing where
   /// the grid cannot hold that, or before any frame.
   std::optional<LocalMap> last_square() const;
@@ -66,6 +67,7 @@ class DriveMapping {
  private:
   void take(const DriveFrame& frame);
   void plan(const Spacing& every);
+  void refuse_wrong_poses() const;
 
   const Drive& drive_;
   Options options_;

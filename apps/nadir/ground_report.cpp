@@ -69,6 +69,12 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "-";
 }
 
+std::string pose_check(const PoseFit& fit) {
+  if (fit.pairs == 0) return "not judged";
+  return fmt::format("{:.1f} px off, {} of {} pairs fit", fit.offset_px, fit.pairs - fit.misfits,
+                     fit.pairs);
+}
+
 double shift_of(const MapComparison& comparison) {
   return std::hypot(comparison.shift_columns, comparison.shift_rows);
 }
@@ -85,6 +91,7 @@ GroundReport report_of(const DriveMapping& mapping, const std::vector<double>& r
   const auto square = mapping.last_square();
   report.coverage_18m = square ? coverage_of(*square, 18.0) : kNan;
   report.coverage_9m = square ? coverage_of(*square, 9.0) : kNan;
+  report.pose_fit = mapping.pose_fit();
   report.comparison = mapping.comparison();
   report.ms_per_frame = medians(mapping.frames(), render_ms);
   report.warnings = mapping.warnings();
@@ -116,7 +123,8 @@ std::string to_table(const GroundReport& report) {
                   report.length_m, report.local_maps, report.low_coverage);
   std::vector<std::vector<std::string>> rows{{"at the last pose", "value"},
                                              {"coverage of 18 m", percent(report.coverage_18m)},
-                                             {"coverage of 9 m", percent(report.coverage_9m)}};
+                                             {"coverage of 9 m", percent(report.coverage_9m)},
+                                             {"pose check", pose_check(report.pose_fit)}};
   if (const auto& comparison = report.comparison) {
     rows.push_back({"odd/even ZNCC", fixed(comparison->zncc, 3)});
     rows.push_back({"odd/even shift, px", fixed(shift_of(*comparison), 1)});

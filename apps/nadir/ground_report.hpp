@@ -17,6 +17,7 @@ struct GroundReport {
   double length_m = 0.0;    ///< driven
   double coverage_18m = 0;  ///< seen around the last pose; NaN where the grid is smaller
   double coverage_9m = 0;
+  PoseFit pose_fit;
   std::optional<MapComparison> comparison;
   std::vector<std::pair<std::string, double>> ms_per_frame;  ///< stage, median
   std::vector<std::string> warnings;

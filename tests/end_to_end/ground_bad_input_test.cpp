@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_drive.hpp"
+#include "nadir/io/drive_writer.hpp"
 #include "nadir/io/image.hpp"
+#include "nadir/io/pose_file.hpp"
 
 namespace nadir::testing {
 namespace {
@@ -101,7 +104,9 @@ TEST_F(GroundBadInput, SwappedImages) {
   fs::rename(drive_ / "image_0", drive_ / "left");
   fs::rename(drive_ / "image_1", drive_ / "image_0");
   fs::rename(drive_ / "left", drive_ / "image_1");
-  expect_refused(ground(), 3, {"swap"});
+  expect_refused(
+      ground(), 3,
+      {"frame 0", "left and right are swapped", "exchange the two image folders or topics"});
 }
 
 TEST_F(GroundBadInput, BaselineInMillimetres) {
@@ -112,6 +117,22 @@ TEST_F(GroundBadInput, BaselineInMillimetres) {
 TEST_F(GroundBadInput, NoBaseline) {
   replace("calib.txt", "-6.000000000000e+01", "0");
   expect_refused(ground(), 3, {"calib.txt:2", "no baseline"});
+}
+
+TEST_F(GroundBadInput, PointsInMillimetres) {
+  LidarRig rig;
+  rig.robot_from_lidar.translation.z() = 1.2;
+  rig.cameras.push_back({small_drive_rig().left, small_drive_rig().robot_from_left});
+  drive_ = scratch_folder() / "lidar_in_millimetres";
+  fs::remove_all(drive_);
+  LidarDriveWriter writer(drive_, rig);
+  for (int i = 0; i < 2; ++i) {
+    const StereoFrame seen = small_drive_frame(i);
+    const std::vector<LidarPoint> points(1000, LidarPoint{3000.0F, 100.0F, -1200.0F});
+    writer.write({seen.stamp, points, {seen.left}}, small_drive_pose(i));
+  }
+  writer.finish();
+  expect_refused(ground(), 3, {"frame 0", "median lidar range is 3233 m", "must be in metres"});
 }
 
 TEST_F(GroundBadInput, OptionsThatCannotBe) {
@@ -132,15 +153,48 @@ TEST_F(GroundBadInput, BlindFrameIsLeftOutAndSaid) {
             std::string::npos);
 }
 
-TEST_F(GroundBadInput, WrongPosesAreFoundOut) {
-  std::string text;
-  for (int i = 0; i < kSmallDriveFrames; ++i) {  // straight on, where the drive is a curve
-    text += std::to_string(100.0 + 0.25 * i) + " " + std::to_string(0.3 * i) + " 0 0 0 0 0 1\n";
+/// A TUM file of poses for the small drive.
+void write_poses(const fs::path& file, const std::function<OdomPose3(int)>& pose_of) {
+  std::vector<StampedOdomPose3> poses;
+  for (int i = 0; i < kSmallDriveFrames; ++i) {
+    poses.push_back({Stamp{100'000'000'000 + i * 250'000'000LL}, pose_of(i)});
   }
-  write_file_as(drive_ / "wrong.tum", text);
-  const Outcome outcome =
-      ground({"--self-check", "--json", "--poses", (drive_ / "wrong.tum").string()});
-  EXPECT_TRUE(any_holds(warnings_of(outcome), "poses")) << outcome.output;
+  write_tum(file, poses);
+}
+
+TEST_F(GroundBadInput, PosesOfAnotherDrive) {
+  const fs::path wrong = drive_ / "wrong.tum";
+  write_poses(wrong, [](int i) { return spatial(OdomPose2{0.9 * i, 0.0, -0.05 * i}); });
+  expect_refused(ground({"--poses", wrong.string()}), 3,
+                 {"wrong.tum: the poses do not fit the images", "px (median)", "checked pairs",
+                  "check that --poses belongs to this drive", "check_poses=off"});
+  // Insisted on, they are mapped; and the odd and even frames disagree.
+  const Outcome outcome = ground({"--poses", wrong.string(), "--self-check", "--json", "--set",
+                                  "ground_mapping.check_poses=off"});
+  EXPECT_TRUE(any_holds(warnings_of(outcome), "the poses do not fit")) << outcome.output;
+}
+
+TEST_F(GroundBadInput, PosesInMillimetres) {
+  const fs::path wrong = drive_ / "millimetres.tum";
+  write_poses(wrong, [](int i) {
+    OdomPose3 pose = small_drive_pose(i);
+    pose.translation *= 1000.0;
+    return pose;
+  });
+  expect_refused(ground({"--poses", wrong.string()}), 3,
+                 {"millimetres.tum", "the poses move by 520 m from frame to frame, 2080 m/s",
+                  "millimetres? Give metres"});
+}
+
+TEST_F(GroundBadInput, PosesALittleOffAreWarnedOf) {
+  const fs::path wrong = drive_ / "short.tum";
+  write_poses(wrong, [](int i) {
+    OdomPose3 pose = small_drive_pose(i);
+    pose.translation *= 0.8;
+    return pose;
+  });
+  const auto warnings = warnings_of(ground({"--poses", wrong.string(), "--json"}));
+  EXPECT_TRUE(any_holds(warnings, "short.tum: the poses do not fit the images"));
 }
 
 }  // namespace

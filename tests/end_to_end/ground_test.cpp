@@ -199,6 +199,21 @@ TEST_P(GroundOnKitti, IsCoveredAndAgreesWithItself) {
   EXPECT_GE(document["odd_even_zncc"], real.zncc);
   EXPECT_EQ(document["odd_even_shift_px"], 0.0);
   EXPECT_LE(document["height_disagreement_m"]["median"], real.height_median_m);
+  EXPECT_EQ(document["warnings"], Json::array());
+}
+
+TEST(GroundOnKittiPoses, OfAnotherDriveAreRefused) {
+  const auto drive = test::find_data("kitti_stereo/odometry_01");
+  const auto other = test::find_data("kitti_stereo/straight_street/poses.txt");
+  if (!drive || !other) GTEST_SKIP() << test::kNoData;
+  const fs::path site = scratch_folder() / "other_poses";
+  const Outcome outcome =
+      nadir({"ground", drive->string(), "-o", site.string(), "--poses", other->string(), "-q"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("straight_street/poses.txt: the poses do not fit the images"),
+            std::string::npos)
+      << outcome.errors;
+  EXPECT_FALSE(fs::exists(site));
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, GroundOnKitti,

@@ -17,6 +17,7 @@
 #include "nadir/ground_mapping/grid/colouriser.hpp"
 #include "nadir/ground_mapping/grid/fuser.hpp"
 #include "nadir/ground_mapping/grid/renderer.hpp"
+#include "nadir/ground_mapping/poses/pose_check.hpp"
 
 namespace nadir {
 namespace {
@@ -97,6 +98,11 @@ class GroundMapper::Impl {
       add(measurement, sensor->min_points(), sensor->max_range_m(), statistics);
     }
     warn_of_drops(statistics);
+    if (options_.check_poses && pose_check_.step(now)) {
+      if (auto sighting = sensor->sighting(frame)) {
+        pose_check_.take(std::move(*sighting));
+      }
+    }
     return statistics;
   }
 
@@ -109,6 +115,8 @@ class GroundMapper::Impl {
     map.stamp = last_->stamp;
     return map;
   }
+
+  PoseFit pose_fit() const { return pose_check_.fit(); }
 
   double min_range_m() const {
     return std::visit([](const auto& source) { return source.min_range_m(); }, source_);
@@ -201,6 +209,7 @@ class GroundMapper::Impl {
   ground::ElevationGrid grid_;
   ground::Aggregator aggregator_;
   ground::Fuser fuser_;
+  ground::PoseCheck pose_check_;
   std::optional<StampedOdomPose3> last_;
   RobotMotion last_motion_;
   std::uint32_t elapsed_ms_ = 0;
@@ -233,6 +242,8 @@ FrameStatistics GroundMapper::integrate(const LidarFrame& frame, const OdomPose3
 }
 
 LocalMap GroundMapper::render(const RenderOptions& options) const { return impl_->render(options); }
+
+PoseFit GroundMapper::pose_fit() const { return impl_->pose_fit(); }
 
 double GroundMapper::min_range_m() const { return impl_->min_range_m(); }
 double GroundMapper::max_range_m() const { return impl_->max_range_m(); }

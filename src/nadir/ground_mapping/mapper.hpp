@@ -7,6 +7,7 @@
 #include "nadir/core/sensors.hpp"
 #include "nadir/ground_mapping/local_map.hpp"
 #include "nadir/ground_mapping/options.hpp"
+#include "nadir/ground_mapping/pose_fit.hpp"
 #include "nadir/ground_mapping/statistics.hpp"
 
 namespace nadir {
@@ -35,10 +36,15 @@ class GroundMapper {
   /// Takes one frame; frames come in the order of their stamps. A frame without a usable point is
   /// skipped and leaves the map as it is: see the status.
   /// Throws Error (input) for a non-finite pose, a stamp that does not increase, an image of
-  /// another size than the rig's, left and right swapped (first frame), or depth in millimetres;
-  /// Error (usage) for a frame of the other sensor.
+  /// another size than the rig's, left and right swapped (first frame), depth in millimetres, or
+  /// poses that plainly do not fit the images (PoseFit, is_gross); Error (usage) for a frame of the
+  /// other sensor.
   FrameStatistics integrate(const StereoFrame& frame, const OdomPose3& odom_from_robot);
   FrameStatistics integrate(const LidarFrame& frame, const OdomPose3& odom_from_robot);
+
+  /// How the poses of the frames so far fit their images; empty without options.check_poses. What
+  /// to make of it is the caller's: pose_misfit, is_gross.
+  PoseFit pose_fit() const;
 
   /// Throws Error (usage) before the first frame and for a size that the grid cannot hold.
   LocalMap render(const RenderOptions& options) const;

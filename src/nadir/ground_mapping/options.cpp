@@ -108,6 +108,9 @@ void declare(OptionTable& table, GroundMappingOptions& options) {
   table.number(stage + "pose_jump_deg", options.pose_jump_deg, {0.01, 180.0},
                "The map is dropped where the pose leaves the predicted one by more than this and "
                "300 deg/s^2 allow, degrees.");
+  table.flag(stage + "check_poses", options.check_poses,
+             "Warn of poses that do not fit the images, and refuse those that plainly do not.",
+             "docs/ground-mapping.md");
 }
 
 void declare(OptionTable& table, RenderOptions& options) {

@@ -64,6 +64,7 @@ struct GroundMappingOptions {
   int fill_cells = 3;
   double pose_jump_m = 0.3;
   double pose_jump_deg = 2.0;
+  bool check_poses = true;
 };
 
 void declare(OptionTable& table, GroundMappingOptions& options);

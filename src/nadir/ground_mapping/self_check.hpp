@@ -34,7 +34,7 @@ class OddEvenCheck {
  public:
   template <class Rig>
   OddEvenCheck(const Rig& rig, const GroundMappingOptions& options)
-      : even_(rig, options), odd_(rig, options) {}
+      : even_(rig, unchecked(options)), odd_(rig, unchecked(options)) {}
 
   template <class SensorFrame>
   FrameStatistics integrate(const SensorFrame& frame, const OdomPose3& odom_from_robot) {
@@ -49,6 +49,12 @@ class OddEvenCheck {
   const GroundMapper& odd() const { return odd_; }
 
  private:
+  /// Poses that do not fit are to show in the maps here.
+  static GroundMappingOptions unchecked(GroundMappingOptions options) {
+    options.check_poses = false;
+    return options;
+  }
+
   GroundMapper even_;
   GroundMapper odd_;
   int count_ = 0;

@@ -168,6 +168,7 @@ void take_poses(OpenedLayout& layout, PoseFile file, const path& path_of_file,
   }
   check_travel(poses, frame, asked != PoseFrame::kAuto, path_of_file, layout.drive);
   layout.drive.odometry = std::move(poses);
+  layout.drive.pose_file = path_of_file;
 }
 
 std::string name_of(const path& place) {

@@ -88,6 +88,7 @@ struct Drive {
   std::vector<DriveFrame> frames;  ///< at least one; stamps increase
   /// Poses of the robot in the odometry frame, stamps increasing; nothing where the drive has none.
   std::optional<std::vector<StampedOdomPose3>> odometry = std::nullopt;
+  std::filesystem::path pose_file;  ///< that they came from: a file, or the bag; may be empty
   std::optional<std::filesystem::path> truth = std::nullopt;  ///< truth.tum: map_from_robot
   std::vector<std::filesystem::path> inputs;                  ///< calibrations and poses read
   std::vector<std::string> notes;                             ///< what was assumed or looks odd

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 
 #include "nadir/ground_mapping/depth/points.hpp"
+#include "nadir/ground_mapping/depth/sighting.hpp"
 
 namespace nadir::ground {
 
@@ -14,6 +16,9 @@ concept DepthSource = requires(Source& source, const Source& constant,
                                const typename Source::SensorFrame& frame, const OdomPose3& pose,
                                const RobotMotion& motion, FrameStatistics& statistics) {
   { source.measure(frame, pose, motion, statistics) } -> std::same_as<Measurement>;
+  /// The frame that was measured last, for the check of the poses; nothing where the frame has no
+  /// image with depths.
+  { constant.sighting(frame) } -> std::same_as<std::optional<Sighting>>;
   { constant.min_range_m() } -> std::same_as<double>;
   { constant.max_range_m() } -> std::same_as<double>;
   /// Points of one frame that begin a cell.

@@ -118,6 +118,39 @@ Measurement LidarSource::measure(const LidarFrame& frame, const OdomPose3& odom_
   return measurement;
 }
 
+std::optional<Sighting> LidarSource::sighting(const LidarFrame& frame) const {
+  if (frame.images.empty()) return std::nullopt;
+  const MountedCamera& mounted = rig_.cameras.front();
+  Sighting sighting =
+      sighting_of(view_of(frame.images.front()), mounted.model, mounted.robot_from_camera);
+  const cv::Size size = sighting.grey.size();
+  cv::Mat depth(size, CV_32F, cv::Scalar(0.0));
+  const auto camera_from_lidar = mounted.robot_from_camera.inverse() * rig_.robot_from_lidar;
+  for (const LidarPoint& point : frame.points) {
+    if (!usable(point)) continue;
+    const Eigen::Vector3d p =
+        (camera_from_lidar * Point3<frames::Lidar>{point.x, point.y, point.z}).vector();
+    if (!(p.z() > options_.lidar_min_range_m)) continue;
+    const auto pixel = sighting.camera.project(p);
+    if (!pixel || !(pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < size.width &&
+                    pixel->y() < size.height)) {
+      continue;
+    }
+    // A sweep is sparser than the image: a point stands for the pixels around it, the nearest wins.
+    const cv::Rect around =
+        cv::Rect(static_cast<int>(pixel->x()) - 1, static_cast<int>(pixel->y()) - 1, 3, 3) &
+        cv::Rect({}, size);
+    for (int row = around.y; row < around.y + around.height; ++row) {
+      for (int column = around.x; column < around.x + around.width; ++column) {
+        float& nearest = depth.at<float>(row, column);
+        if (nearest == 0.0F || p.z() < nearest) nearest = static_cast<float>(p.z());
+      }
+    }
+  }
+  find_landmarks(sighting, depth);
+  return sighting;
+}
+
 void LidarSource::to_points(const LidarFrame& frame, const OdomPose3& odom_from_robot,
                             const RobotMotion& motion, Measurement& measurement,
                             FrameStatistics& statistics) const {

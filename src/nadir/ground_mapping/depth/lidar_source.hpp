@@ -17,6 +17,7 @@ class LidarSource {
 
   Measurement measure(const LidarFrame& frame, const OdomPose3& odom_from_robot,
                       const RobotMotion& motion, FrameStatistics& statistics);
+  std::optional<Sighting> sighting(const LidarFrame& frame) const;
   double min_range_m() const { return options_.lidar_min_range_m; }
   double max_range_m() const { return options_.lidar_max_range_m; }
   static int min_points() { return 1; }

@@ -27,6 +27,8 @@ constexpr double kLowestCamera = 0.1;
 /// A saturated pixel says little about the colour.
 constexpr int kSaturated = 250;
 constexpr float kSaturatedWeight = 0.2F;
+/// A smaller one, pixels, says too little about the depth to check a pose by.
+constexpr double kLeastSightedDisparity = 2.0;
 /// Farther than any ground that a metre-scaled pair can see: the calibration is in millimetres.
 constexpr double kAbsurdDepth = 200.0;
 
@@ -170,6 +172,7 @@ Measurement StereoSource::measure(const StereoFrame& frame, const OdomPose3& odo
   check_image(frame.left, rig_.left, "left");
   check_image(frame.right, rig_.right, "right");
   const RectifiedGeometry& geometry = rectifier_.geometry();
+  disparity_.release();
   Measurement measurement;
   measurement.channels = frame.left.channels();
   Pixels pixels;
@@ -214,8 +217,37 @@ Measurement StereoSource::measure(const StereoFrame& frame, const OdomPose3& odo
   pixels.textured = textured(left, options_.texture_std);
   to_points(pixels, measurement, statistics);
   if (options_.colour_rule == ColourRule::kInverse) measurement.views.push_back(view(pixels));
+  disparity_ = pixels.disparity;
+  first_row_ = first_row;
   statistics.ms.points = watch.lap();
   return measurement;
+}
+
+std::optional<Sighting> StereoSource::sighting(const StereoFrame& frame) const {
+  if (disparity_.empty()) return std::nullopt;
+  const RectifiedGeometry& geometry = rectifier_.geometry();
+  CameraModel camera = geometry.left;
+  camera.height -= first_row_;
+  camera.cy -= first_row_;
+  Sighting sighting =
+      sighting_of(rectifier_.left(frame.left, first_row_), camera, geometry.robot_from_left);
+  const cv::Size size = sighting.grey.size();
+  const double scale = static_cast<double>(size.width) / camera.width;
+  cv::Mat depth(size, CV_32F, cv::Scalar(0.0));
+  for (int row = 0; row < size.height; ++row) {
+    const auto* disparities = disparity_.ptr<std::int16_t>(
+        std::min(camera.height - 1, static_cast<int>((row + 0.5) / scale)));
+    for (int column = 0; column < size.width; ++column) {
+      const std::int16_t d =
+          disparities[std::min(camera.width - 1, static_cast<int>((column + 0.5) / scale))];
+      const double disparity = static_cast<double>(d) / kSubPixels + geometry.disparity_offset;
+      if (d > 0 && disparity > kLeastSightedDisparity) {
+        depth.at<float>(row, column) = static_cast<float>(geometry.focal_baseline / disparity);
+      }
+    }
+  }
+  find_landmarks(sighting, depth);
+  return sighting;
 }
 
 void StereoSource::to_points(const Pixels& pixels, Measurement& measurement,

@@ -19,6 +19,7 @@ class StereoSource {
 
   Measurement measure(const StereoFrame& frame, const OdomPose3& odom_from_robot,
                       const RobotMotion& motion, FrameStatistics& statistics);
+  std::optional<Sighting> sighting(const StereoFrame& frame) const;
   double min_range_m() const { return min_range_; }
   double max_range_m() const { return max_range_; }
   int min_points() const { return options_.min_points; }
@@ -38,6 +39,8 @@ class StereoSource {
   double max_range_;
   cv::Ptr<cv::StereoSGBM> matcher_;
   bool order_checked_ = false;
+  cv::Mat disparity_;  ///< of the frame measured last: CV_16S, 16ths of a pixel; may be empty
+  int first_row_ = 0;  ///< of the image, that `disparity_` begins with
 };
 static_assert(DepthSource<StereoSource>);
 
