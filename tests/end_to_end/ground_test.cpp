@@ -216,6 +216,21 @@ TEST(GroundOnKittiPoses, OfAnotherDriveAreRefused) {
   EXPECT_FALSE(fs::exists(site));
 }
 
+TEST(GroundOnKittiPoses, OfARobotThatStandsInTrafficAreNotDoubted) {
+  const auto drive = test::find_data("kitti_lidar");
+  if (!drive) GTEST_SKIP() << test::kNoData;
+  const fs::path standing = scratch_folder() / "standing.txt";
+  std::string rows;
+  for (int i = 0; i < 15; ++i) rows += "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  write_file_as(standing, rows);
+  const Json document =
+      json_of({"ground", drive->string(), "-o", (scratch_folder() / "queue").string(), "--poses",
+               standing.string(), "--pose-frame", "robot"});
+  for (const auto& warning : document["warnings"]) {
+    EXPECT_EQ(warning.get<std::string>().find("the poses"), std::string::npos) << warning;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Drives, GroundOnKitti,
                          ::testing::Values(RealDrive{"straight_street", 0.90, 0.015},
                                            RealDrive{"odometry_01", 0.86, 0.03}),

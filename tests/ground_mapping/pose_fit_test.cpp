@@ -94,7 +94,7 @@ TEST(PosesThatFit, OfImagesWithoutTextureAreNotJudged) {
 TEST(PosesThatDoNotFit, OfAnotherDriveAreGross) {
   const auto other = [](int frame) { return pose_at(0.8 * frame, 0.0, -0.06 * frame); };
   expect_gross(driven, other,
-               {"the poses do not fit the images", "px (median)", "checked pairs",
+               {"the poses do not fit the images", "px from where", "checked pairs",
                 "--poses belongs to this drive"});
 }
 

@@ -49,9 +49,11 @@ std::optional<std::string> pose_misfit(const PoseFit& fit) {
            " m/s: are they in millimetres? Give metres, and stamps in seconds";
   }
   if (fit.pairs < kFewestPairs || 2 * fit.misfits <= fit.pairs) return std::nullopt;
-  return "the poses do not fit the images: points of one frame land " + to_tenths(fit.offset_px) +
-         " px (median) from where a later frame shows them, in " + std::to_string(fit.misfits) +
-         " of " + std::to_string(fit.pairs) + " checked pairs; " + cure_of(fit.fault);
+  return "the poses do not fit the images: three quarters of the points of one frame land more "
+         "than " +
+         to_tenths(fit.offset_px) + " px from where a later frame shows them, in " +
+         std::to_string(fit.misfits) + " of " + std::to_string(fit.pairs) + " checked pairs; " +
+         cure_of(fit.fault);
 }
 
 bool is_gross(const PoseFit& fit) {

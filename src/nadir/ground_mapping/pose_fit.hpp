@@ -22,17 +22,18 @@ enum class PoseFault {
 /// 640 wide, or of the image itself where it is smaller.
 struct PoseFit {
   int pairs = 0;      ///< of frames that moved and had texture enough to be judged
-  int misfits = 0;    ///< of them, those whose median offset is above kMisfitPx
+  int misfits = 0;    ///< of them, those off by more than kMisfitPx
   int gross = 0;      ///< above kGrossPx
-  double offset_px =  ///< median over the pairs of the median over the points
+  double offset_px =  ///< median over the pairs of the lower quartile over the points: the rest may
+                      ///< drive about
       std::numeric_limits<double>::quiet_NaN();
   PoseFault fault = PoseFault::kUnknown;  ///< that explains most of the misfits
   int steps = 0;                          ///< between frames with poses
   double step_m = 0.0;                    ///< median
   double speed_m_per_s = 0.0;             ///< median
 
-  static constexpr double kMisfitPx = 3.0;
-  static constexpr double kGrossPx = 6.0;
+  static constexpr double kMisfitPx = 2.5;
+  static constexpr double kGrossPx = 5.0;
 };
 
 /// One sentence with the cure where the poses do not fit the images, or are too fast for a robot;

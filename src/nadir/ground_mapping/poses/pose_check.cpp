@@ -12,7 +12,7 @@
 namespace nadir::ground {
 namespace {
 
-/// A pair stays open until the points move by this much in the image, or this many frames.
+/// A pair stays open until the poses move the points by this much, or this many frames.
 constexpr double kEnoughMotionPx = 6.0;
 constexpr int kLongestPair = 8;
 /// Below it a pair says nothing.
@@ -20,9 +20,11 @@ constexpr double kLeastMotionPx = 1.5;
 /// The first pairs follow on each other; then the gap grows by a frame a pair, up to the widest.
 constexpr int kPairsInARow = 2;
 constexpr int kWidestGap = 16;
+/// In a queue of cars this share of what is seen stands still, or more.
+constexpr double kSteady = 0.25;
 constexpr std::size_t kFewestTracks = 10;
 constexpr double kLeastTracked = 0.25;
-/// Another reading of the poses explains a misfit where it leaves so much of it, at most.
+/// Another reading of the poses explains a misfit where it fits, and leaves so much of it at most.
 constexpr double kExplained = 0.3;
 
 double median(std::vector<double> values) {
@@ -65,9 +67,9 @@ PoseFault explain(const std::vector<Track>& tracks, const Sighting& sighting, co
        {PoseFault::kInverted, step_between(inverted(from), inverted(to), sighting)},
        {PoseFault::kMirrored, step_between(mirrored(from), mirrored(to), sighting)}}};
   PoseFault best = PoseFault::kUnknown;
-  double least = kExplained * offset;
+  double least = std::min(kExplained * offset, PoseFit::kMisfitPx);
   for (const auto& [fault, step] : readings) {
-    const double left = median_offset(tracks, sighting.camera, step);
+    const double left = offset_of(tracks, sighting.camera, step, kSteady);
     if (left < least) {
       least = left;
       best = fault;
@@ -103,8 +105,10 @@ void PoseCheck::take(Sighting sighting) {
   // A landmark that is lost while the pair grows leaves what was known of the pair before.
   const std::optional<Pair> pair = judge(*first_, now);
   if (pair) open_ = pair;
-  const bool decided = !pair || pair->offset_px > PoseFit::kMisfitPx ||
-                       pair->motion_px >= kEnoughMotionPx || frames_since_ >= kLongestPair;
+  // Where the poses stand and the images do not, a longer pair gives the traffic time to pass.
+  const bool traffic = pair && pair->posed_px < kLeastMotionPx && pair->found_px >= kLeastMotionPx;
+  const bool decided = !pair || traffic || pair->offset_px > PoseFit::kMisfitPx ||
+                       pair->posed_px >= kEnoughMotionPx || frames_since_ >= kLongestPair;
   if (decided) close(std::move(now));
 }
 
@@ -123,20 +127,20 @@ std::optional<PoseCheck::Pair> PoseCheck::judge(const Seen& first, const Seen& s
       expectations.push_back({landmark.p_in_camera, *pixel});
     }
   }
-  const double found_px = median_offset(tracks, camera, {});
-  const double posed_px = median_offset(expectations, camera, {});
-  Pair pair{.offset_px = median_offset(tracks, camera, expected),
-            .motion_px = std::fmax(found_px, posed_px)};
+  Pair pair{.offset_px = offset_of(tracks, camera, expected, kSteady),
+            .found_px = offset_of(tracks, camera, {}, 0.5),
+            .posed_px = offset_of(expectations, camera, {}, 0.5)};
   if (pair.offset_px > PoseFit::kMisfitPx) {
     pair.fault = explain(tracks, second.sighting, first.odom_from_robot, second.odom_from_robot,
                          pair.offset_px);
-    if (posed_px < kLeastMotionPx) pair.fault = PoseFault::kStandingPoses;
+    if (pair.posed_px < kLeastMotionPx) pair.fault = PoseFault::kStandingPoses;
   }
   return pair;
 }
 
 void PoseCheck::close(Seen now) {
-  if (open_ && open_->motion_px >= kLeastMotionPx) judged_.push_back(*open_);
+  if (open_ && std::fmax(open_->found_px, open_->posed_px) >= kLeastMotionPx)
+    judged_.push_back(*open_);
   open_.reset();
   first_.reset();
   frames_since_ = 0;

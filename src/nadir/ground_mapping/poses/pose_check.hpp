@@ -28,7 +28,8 @@ class PoseCheck {
   };
   struct Pair {
     double offset_px = 0.0;
-    double motion_px = 0.0;  ///< in the image: by the poses or as found, whichever is more
+    double found_px = 0.0;  ///< how far the points move in the image
+    double posed_px = 0.0;  ///< how far they should by the poses
     PoseFault fault = PoseFault::kUnknown;
   };
 

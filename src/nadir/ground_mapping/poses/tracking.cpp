@@ -97,8 +97,8 @@ std::vector<Track> track(const Sighting& first, const Sighting& second,
   return tracks;
 }
 
-double median_offset(const std::vector<Track>& tracks, const CameraModel& camera,
-                     const CameraStep& step) {
+double offset_of(const std::vector<Track>& tracks, const CameraModel& camera,
+                 const CameraStep& step, double share) {
   if (tracks.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> offsets;
   for (const Track& found : tracks) {
@@ -106,9 +106,9 @@ double median_offset(const std::vector<Track>& tracks, const CameraModel& camera
     const double most = camera.width;
     offsets.push_back(pixel ? std::min(most, (*pixel - found.pixel).norm()) : most);
   }
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  return *middle;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(offsets.size()));
+  std::nth_element(offsets.begin(), offsets.begin() + rank, offsets.end());
+  return offsets[static_cast<std::size_t>(rank)];
 }
 
 }  // namespace nadir::ground

@@ -24,9 +24,10 @@ struct Track {
 /// if they are not there, around where they were. What is found nowhere is left out.
 std::vector<Track> track(const Sighting& first, const Sighting& second, const CameraStep& expected);
 
-/// The median distance of the tracks from where a step leads their landmarks, pixels; a landmark
-/// that it leads behind the camera counts as off by the image's width. NaN without tracks.
-double median_offset(const std::vector<Track>& tracks, const CameraModel& camera,
-                     const CameraStep& step);
+/// The distance of the tracks from where a step leads their landmarks, pixels, that `share` of them
+/// stay below; a landmark that it leads behind the camera counts as off by the image's width. NaN
+/// without tracks.
+double offset_of(const std::vector<Track>& tracks, const CameraModel& camera,
+                 const CameraStep& step, double share);
 
 }  // namespace nadir::ground
