@@ -142,7 +142,7 @@ std::optional<Sighting> LidarSource::sighting(const LidarFrame& frame) const {
         cv::Rect({}, size);
     for (int row = around.y; row < around.y + around.height; ++row) {
       for (int column = around.x; column < around.x + around.width; ++column) {
-        float& nearest = depth.at<float>(row, column);
+        auto& nearest = depth.at<float>(row, column);
         if (nearest == 0.0F || p.z() < nearest) nearest = static_cast<float>(p.z());
       }
     }

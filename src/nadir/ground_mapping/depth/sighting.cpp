@@ -9,10 +9,10 @@
 namespace nadir::ground {
 namespace {
 
-constexpr int kMostLandmarks = 60;
+constexpr int kMostCorners = 60;
 /// A corner is as good as this share of the best one.
 constexpr double kCornerQuality = 0.02;
-constexpr double kCornersApart = 12.0;  // px
+constexpr double kSpacing = 12.0;  // px
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Sighting sighting_of(const cv::Mat& image, const CameraModel& camera,
 
 void find_landmarks(Sighting& sighting, const cv::Mat& depth) {
   std::vector<cv::Point2f> corners;
-  cv::goodFeaturesToTrack(sighting.grey, corners, kMostLandmarks, kCornerQuality, kCornersApart,
+  cv::goodFeaturesToTrack(sighting.grey, corners, kMostCorners, kCornerQuality, kSpacing,
                           depth > 0.0F);
   for (const cv::Point2f& corner : corners) {
     const Eigen::Vector2i pixel(cvRound(corner.x), cvRound(corner.y));
