@@ -27,6 +27,9 @@ constexpr double kLeastTracked = 0.25;
 /// Another reading of the poses explains a misfit where it fits, and leaves so much of it at most.
 constexpr double kExplained = 0.3;
 
+/// A thousandth of less, metres, is no motion: it fits wherever a standing robot does.
+constexpr double kLeastInMillimetres = 10.0;
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -68,7 +71,9 @@ PoseFault explain(const std::vector<Track>& tracks, const Sighting& sighting, co
        {PoseFault::kMirrored, step_between(mirrored(from), mirrored(to), sighting)}}};
   PoseFault best = PoseFault::kUnknown;
   double least = std::min(kExplained * offset, PoseFit::kMisfitPx);
+  const double moved_m = (to.translation - from.translation).norm();
   for (const auto& [fault, step] : readings) {
+    if (fault == PoseFault::kMillimetres && moved_m < kLeastInMillimetres) continue;
     const double left = offset_of(tracks, sighting.camera, step, kSteady);
     if (left < least) {
       least = left;
