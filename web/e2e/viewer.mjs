@@ -7,43 +7,13 @@
 // browser (default: /usr/bin/chromium). Screenshots go to SHOTS where it is given. Exit code 1
 // where anything is not as it should be.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { chromium } from "playwright-core";
+import { launch, open, serve } from "./browser.mjs";
 
 const [program, site, run, shots] = process.argv.slice(2);
 assert(run, "usage: node e2e/viewer.mjs NADIR SITE RUN [SHOTS]");
-
-/** Starts nadir; `ready` is where it serves. */
-function serve(args) {
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
-  const ready = new Promise((resolve, reject) => {
-    let said = "";
-    const hear = (data) => {
-      said += data;
-      const url = /http:\/\/[\d.:]+\//.exec(said)?.[0];
-      if (url) resolve(url);
-    };
-    child.stdout.on("data", hear);
-    child.stderr.on("data", hear);
-    child.on("exit", () => reject(new Error(`nadir ended: ${said}`)));
-  });
-  return { child, ready };
-}
-
-async function open(browser, url, options = {}) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
-  page.faults = [];
-  page.on("pageerror", (error) => page.faults.push(error.message));
-  page.on("console", (message) => {
-    if (message.type() === "error") page.faults.push(message.text());
-  });
-  await page.goto(url);
-  await page.waitForSelector("#frame tr");
-  return page;
-}
 
 const shot = async (page, name) => {
   if (shots) await page.screenshot({ path: join(shots, `${name}.png`) });
@@ -52,7 +22,7 @@ const cell = (row) => `#frame tr:nth-child(${row}) td`;
 const frameNumber = (page) => page.textContent(cell(1)).then(Number);
 
 async function finishedRun(browser) {
-  const { child, ready } = serve(["view", run, "--site", site, "--port", "0"]);
+  const { child, ready } = serve(program, ["view", run, "--site", site, "--port", "0"]);
   try {
     const url = await ready;
     const page = await open(browser, url);
@@ -98,8 +68,8 @@ async function finishedRun(browser) {
 
 async function liveRun(browser) {
   const out = join(mkdtempSync(join(tmpdir(), "nadir-e2e-")), "run");
-  const { child, ready } = serve(["localize", site, "-o", out, "--prior", "truth", "--serve",
-    "--port", "0", "--rate", "1.5"]);
+  const { child, ready } = serve(program, ["localize", site, "-o", out, "--prior", "truth",
+    "--serve", "--port", "0", "--rate", "1.5"]);
   try {
     const page = await open(browser, await ready);
     await page.waitForSelector("#live.on");
@@ -128,9 +98,7 @@ async function liveRun(browser) {
   }
 }
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"],
-});
+const browser = await launch();
 try {
   await finishedRun(browser);
   await liveRun(browser);
