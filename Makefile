@@ -34,7 +34,8 @@ endif
 format: deps-quality  ## format every C++ file in place
 	git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format -i
 
-tidy: build deps-quality  ## run clang-tidy over the library
+tidy: deps deps-quality  ## run clang-tidy over the library
+	cmake --preset tidy
 	tools/tidy.py -j $(JOBS)
 
 asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out

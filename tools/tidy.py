@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs clang-tidy by the compile commands of a build, over the library but for its figures.
+"""Runs clang-tidy by the compile commands of `cmake --preset tidy`, over the library but for its figures.
 
 src/nadir/report and apps have not been brought to pass yet: they belong in FOLDERS next.
 
@@ -97,7 +97,7 @@ def tidy(sources, arguments, build, common):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("-j", "--jobs", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "tidy")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
     (build / "tidy").mkdir(exist_ok=True)

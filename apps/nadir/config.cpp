@@ -15,7 +15,7 @@ struct DumpOptions {
   bool markdown = false;
 };
 
-std::string escaped(std::string text) {
+std::string markdown_cell(std::string text) {
   for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) {
     text.insert(i, "\\");
   }
@@ -40,9 +40,9 @@ std::string markdown(const OptionTable& table) {
           "|---|---|---|---|---|\n",
           stage);
     }
-    text +=
-        fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.default_value,
-                    escaped(option.allowed), escaped(option.description), escaped(option.source));
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.default_value,
+                        markdown_cell(option.allowed), markdown_cell(option.description),
+                        markdown_cell(option.source));
   }
   return text;
 }

@@ -37,8 +37,6 @@ std::vector<std::string> row(const std::string& name, const Statistics& s, doubl
   return cells;
 }
 
-std::string percent(double share) { return fixed(100.0 * share, 1) + " %"; }
-
 std::vector<std::string> row(const std::string& name, const MeanAndSpread& number, double factor,
                              int places) {
   return {name, fixed(factor * number.mean, places), fixed(factor * number.spread, places),

@@ -24,23 +24,23 @@ std::string matching_photo(const std::string& name, const FlightInput& input) {
 }
 
 void place(ImportedPoses& imported, const std::string& origin, FlightInput& input) {
-  if (imported.frame == PoseFrame::kModel) {
+  if (imported.frame == PhotoPoseFrame::kModel) {
     const double residual = align_poses(imported.poses, input.set.photos);
     input.warnings.push_back(fmt::format(
         "{}: in a frame of its own; fitted to the photos' positions, {:.2f} m root mean square",
         origin, residual));
-  } else if (imported.frame == PoseFrame::kMap) {
+  } else if (imported.frame == PhotoPoseFrame::kMap) {
     // Where tags and poses disagree on the frame, the poses lie where the map will be.
     input.set.crs = imported.crs;
   } else if (!input.frame) {
     const GeodeticPosition place_of_poses =
-        imported.frame == PoseFrame::kTopocentric
+        imported.frame == PhotoPoseFrame::kTopocentric
             ? imported.reference
             : from_geocentric(imported.poses.front().map_from_camera.translation);
     input.frame = MetricFrame::around({place_of_poses});
     input.set.crs = input.frame->crs();
   }
-  if (imported.frame != PoseFrame::kModel && imported.frame != PoseFrame::kMap) {
+  if (imported.frame != PhotoPoseFrame::kModel && imported.frame != PhotoPoseFrame::kMap) {
     imported.poses = in_map_frame(imported, *input.frame);
   }
 }

@@ -15,7 +15,7 @@
 namespace nadir::cli {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::pair<const char*, double StageTimes::*>, 7> kStages{
     {{"rectify", &StageTimes::rectify},
@@ -27,7 +27,7 @@ constexpr std::array<std::pair<const char*, double StageTimes::*>, 7> kStages{
      {"colour", &StageTimes::colour}}};
 
 double median(std::vector<double> values) {
-  if (values.empty()) return kNan;
+  if (values.empty()) return kUnknown;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
@@ -65,9 +65,7 @@ double length_of(const std::vector<MappedFrame>& frames) {
   return length;
 }
 
-std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "-";
-}
+std::string known_percent(double share) { return std::isfinite(share) ? percent(share) : "-"; }
 
 std::string pose_check(const PoseFit& fit) {
   if (fit.pairs == 0) return "not judged";
@@ -89,8 +87,8 @@ GroundReport report_of(const DriveMapping& mapping, const std::vector<double>& r
   report.low_coverage = low_coverage;
   report.length_m = length_of(mapping.frames());
   const auto square = mapping.last_square();
-  report.coverage_18m = square ? coverage_of(*square, 18.0) : kNan;
-  report.coverage_9m = square ? coverage_of(*square, 9.0) : kNan;
+  report.coverage_18m = square ? coverage_of(*square, 18.0) : kUnknown;
+  report.coverage_9m = square ? coverage_of(*square, 9.0) : kUnknown;
   report.pose_fit = mapping.pose_fit();
   report.comparison = mapping.comparison();
   report.ms_per_frame = medians(mapping.frames(), render_ms);
@@ -121,10 +119,11 @@ std::string to_table(const GroundReport& report) {
   std::string text =
       fmt::format("{} frames, {:.1f} m driven, {} local maps ({} of low coverage)\n", report.frames,
                   report.length_m, report.local_maps, report.low_coverage);
-  std::vector<std::vector<std::string>> rows{{"at the last pose", "value"},
-                                             {"coverage of 18 m", percent(report.coverage_18m)},
-                                             {"coverage of 9 m", percent(report.coverage_9m)},
-                                             {"pose check", pose_check(report.pose_fit)}};
+  std::vector<std::vector<std::string>> rows{
+      {"at the last pose", "value"},
+      {"coverage of 18 m", known_percent(report.coverage_18m)},
+      {"coverage of 9 m", known_percent(report.coverage_9m)},
+      {"pose check", pose_check(report.pose_fit)}};
   if (const auto& comparison = report.comparison) {
     rows.push_back({"odd/even ZNCC", fixed(comparison->zncc, 3)});
     rows.push_back({"odd/even shift, px", fixed(shift_of(*comparison), 1)});
@@ -152,13 +151,13 @@ std::string frames_csv(const std::vector<MappedFrame>& frames) {
   for (const MappedFrame& frame : frames) {
     const FrameStatistics& s = frame.statistics;
     const DroppedPoints& d = s.dropped;
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.number,
-                    to_string(frame.stamp), frame.odom_from_robot ? to_string(s.status) : "no_pose",
-                    s.points_in, d.no_disparity, d.range, d.height, d.outside, d.texture, d.sparse,
-                    d.gate, s.cells_new, s.cells_updated, s.cells_rejected, s.cells_replaced,
-                    s.cells_cleared, to_text(s.innovation_median_m), to_text(s.innovation_p90_m),
-                    to_text(s.exposure_gain), s.map_dropped ? 1 : 0);
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.number,
+        to_string(frame.stamp), frame.odom_from_robot ? to_string(s.status) : "no_pose",
+        s.points_in, d.no_disparity, d.range, d.height, d.outside, d.texture, d.sparse, d.gate,
+        s.cells_new, s.cells_updated, s.cells_rejected, s.cells_replaced, s.cells_cleared,
+        nadir::to_text(s.innovation_median_m), nadir::to_text(s.innovation_p90_m),
+        nadir::to_text(s.exposure_gain), s.map_dropped ? 1 : 0);
   }
   return text;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +8,7 @@
 #include "describe.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/drive_reader.hpp"
+#include "nadir/io/input_file.hpp"
 #include "verbs.hpp"
 
 namespace nadir::cli {
@@ -19,14 +19,6 @@ namespace fs = std::filesystem;
 struct InfoOptions {
   fs::path path;
 };
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return extension;
-}
 
 bool is_drive(const fs::path& folder) {
   try {

@@ -26,7 +26,8 @@ std::string covariance_csv(const std::vector<StampedCovariance>& covariances) {
   std::string text = kCovarianceHead;
   for (const auto& [stamp, covariance] : covariances) {
     text += to_string(stamp);
-    for (const auto& [row, column] : kUpperTriangle) text += "," + to_text(covariance(row, column));
+    for (const auto& [row, column] : kUpperTriangle)
+      text += "," + nadir::to_text(covariance(row, column));
     text += "\n";
   }
   return text;
@@ -39,9 +40,9 @@ std::string frames_csv(const std::vector<FrameRecord>& records) {
   for (const FrameRecord& record : records) {
     const Estimate& e = record.estimate;
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", record.number, to_string(e.stamp),
-                        to_string(e.status), to_text(e.effective_particles), to_text(e.best_score),
-                        to_text(e.valid_weight), to_text(e.cluster_mass), e.clusters,
-                        e.resampled ? 1 : 0);
+                        to_string(e.status), nadir::to_text(e.effective_particles),
+                        nadir::to_text(e.best_score), nadir::to_text(e.valid_weight),
+                        nadir::to_text(e.cluster_mass), e.clusters, e.resampled ? 1 : 0);
   }
   return text;
 }

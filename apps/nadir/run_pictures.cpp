@@ -11,13 +11,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Picture {
+struct RunPicture {
   const char* file;
   const char* alternative;
   const char* caption;
 };
 
-constexpr std::array<Picture, 4> kPictures{{
+constexpr std::array<RunPicture, 4> kPictures{{
     {"trajectory.png", "trajectory on the map", "Where the robot went, on the drone's map."},
     {"swarm.png", "particles at several instants",
      "The particles at several instants: a small cloud is a sure one."},
@@ -45,7 +45,7 @@ std::string small_data_uri(const std::string& png) {
 
 html::Markup pictures_in(const fs::path& folder) {
   std::vector<html::Markup> figures;
-  for (const Picture& picture : kPictures) {
+  for (const RunPicture& picture : kPictures) {
     const fs::path file = folder / picture.file;
     if (!fs::is_regular_file(file)) continue;
     figures.push_back(html::figure(

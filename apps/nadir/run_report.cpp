@@ -22,9 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using html::Markup;
 
-std::string percent(double share) { return fixed(100.0 * share, 1) + " %"; }
-
-html::Row row(const std::string& name, const Statistics& s, double factor) {
+html::Row statistics_row(const std::string& name, const Statistics& s, double factor) {
   html::Row cells{name};
   for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
     cells.emplace_back(fixed(factor * value, 3));
@@ -44,10 +42,10 @@ Markup accuracy(const Judgement& judgement) {
   const Evaluation& e = judgement.evaluation;
   Markup markup = html::heading("Accuracy");
   markup += html::table({"", "RMSE", "mean", "median", "std", "min", "max"},
-                        {row("APE position, m", e.ape_translation_m, 1.0),
-                         row("APE heading, \u00b0", e.ape_yaw_rad, degrees(1.0)),
-                         row("RPE position, m", e.rpe_translation_m, 1.0),
-                         row("RPE heading, \u00b0", e.rpe_angle_rad, degrees(1.0))},
+                        {statistics_row("APE position, m", e.ape_translation_m, 1.0),
+                         statistics_row("APE heading, \u00b0", e.ape_yaw_rad, degrees(1.0)),
+                         statistics_row("RPE position, m", e.rpe_translation_m, 1.0),
+                         statistics_row("RPE heading, \u00b0", e.rpe_angle_rad, degrees(1.0))},
                         html::Columns::kNumbers);
   const std::string converged =
       e.time_to_converge_s ? fixed(*e.time_to_converge_s, 1) + " s after the first frame" : "never";

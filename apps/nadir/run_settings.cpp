@@ -31,7 +31,7 @@ std::string text_at(const Json& object, const char* key) {
 }
 
 /// As typed into a shell: what a shell would take apart is quoted.
-std::string command_line(const Json& arguments) {
+std::string shown_command_line(const Json& arguments) {
   std::string line = "nadir";
   for (const Json& argument : arguments) {
     const std::string text = option_text(argument);
@@ -104,7 +104,7 @@ Markup settings_of(const Json& manifest) {
 Markup provenance_of(const Json& manifest) {
   const Json host = manifest.value("host", Json::object());
   Markup markup = html::heading("Where this comes from");
-  markup += html::code(command_line(manifest.value("arguments", Json::array())));
+  markup += html::code(shown_command_line(manifest.value("arguments", Json::array())));
   const std::string cores = text_at(host, "logical_processors");
   std::vector<html::Row> rows{
       {"nadir",

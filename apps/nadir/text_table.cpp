@@ -31,4 +31,6 @@ std::string fixed(double value, int places) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, places) : "-";
 }
 
+std::string percent(double share) { return fixed(100.0 * share, 1) + " %"; }
+
 }  // namespace nadir::cli

@@ -13,4 +13,7 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows);
 /// A number for reading, with `places` decimals.
 std::string fixed(double value, int places);
 
+/// A share for reading, with one decimal.
+std::string percent(double share);
+
 }  // namespace nadir::cli

@@ -10,7 +10,7 @@ namespace {
 
 using RobotInOdom = Transform3<frames::Odom, frames::Robot>;
 
-RobotInOdom random_pose(std::uint64_t seed) {
+RobotInOdom random_spatial_pose(std::uint64_t seed) {
   const RandomStream random(seed, 0);
   const Eigen::Vector3d axis{random.normal(0), random.normal(1), random.normal(2)};
   return {Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(3, -3.0, 3.0), axis.normalized())),
@@ -19,8 +19,8 @@ RobotInOdom random_pose(std::uint64_t seed) {
 
 TEST(Transform3, ComposesAndInvertsLikeItsMatrices) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const RobotInOdom pose = random_pose(seed);
-    const Transform3<frames::Robot, frames::Camera> mount{random_pose(seed + 100).rotation,
+    const RobotInOdom pose = random_spatial_pose(seed);
+    const Transform3<frames::Robot, frames::Camera> mount{random_spatial_pose(seed + 100).rotation,
                                                           {0.3, -0.2, 1.1}};
     const Point3<frames::Camera> point{1.0, -2.0, 5.0};
     const Eigen::Vector3d expected =

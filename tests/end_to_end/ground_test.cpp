@@ -15,16 +15,16 @@ namespace nadir::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json json_of(std::vector<std::string> arguments) {
+OrderedJson ordered_json_of(std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--json", "--progress", "none", "--overwrite"});
   const Outcome outcome = nadir(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  return outcome.exit_code == 0 ? Json::parse(outcome.output) : Json{};
+  return outcome.exit_code == 0 ? OrderedJson::parse(outcome.output) : OrderedJson{};
 }
 
-std::vector<std::string> keys_of(const Json& document) {
+std::vector<std::string> keys_of(const OrderedJson& document) {
   std::vector<std::string> keys;
   for (const auto& [key, unused] : document.items()) keys.push_back(key);
   return keys;
@@ -32,7 +32,8 @@ std::vector<std::string> keys_of(const Json& document) {
 
 TEST(Ground, SaysExactlyWhatItPromises) {
   const std::string site = (scratch_folder() / "said").string();
-  const Json document = json_of({"ground", small_drive().string(), "-o", site, "--self-check"});
+  const OrderedJson document =
+      ordered_json_of({"ground", small_drive().string(), "-o", site, "--self-check"});
   EXPECT_EQ(keys_of(document),
             (std::vector<std::string>{"frames", "coverage_18m", "coverage_9m", "odd_even_zncc",
                                       "odd_even_shift_px", "height_disagreement_m", "ms_per_frame",
@@ -40,22 +41,22 @@ TEST(Ground, SaysExactlyWhatItPromises) {
   EXPECT_EQ(keys_of(document["height_disagreement_m"]),
             (std::vector<std::string>{"median", "p90"}));
   EXPECT_EQ(document["frames"], kSmallDriveFrames);
-  EXPECT_EQ(document["warnings"], Json::array());
+  EXPECT_EQ(document["warnings"], OrderedJson::array());
   EXPECT_GT(document["coverage_9m"], document["coverage_18m"]);
   EXPECT_GT(document["odd_even_zncc"], 0.9);
   EXPECT_EQ(document["odd_even_shift_px"], 0.0);
   EXPECT_LT(document["height_disagreement_m"]["median"], 0.02);
   for (const auto& [stage, ms] : document["ms_per_frame"].items()) EXPECT_GE(ms, 0.0) << stage;
 
-  const Json plain = json_of({"ground", small_drive().string(), "-o", site});
+  const OrderedJson plain = ordered_json_of({"ground", small_drive().string(), "-o", site});
   EXPECT_EQ(keys_of(plain), (std::vector<std::string>{"frames", "coverage_18m", "coverage_9m",
                                                       "ms_per_frame", "warnings"}));
 }
 
 TEST(Ground, WritesASiteThatLocalizes) {
   const fs::path site = scratch_folder() / "mapped";
-  json_of({"ground", small_drive().string(), "-o", site.string(), "--every", "2f", "--size", "12",
-           "--map", small_drive_map().string()});
+  ordered_json_of({"ground", small_drive().string(), "-o", site.string(), "--every", "2f", "--size",
+                   "12", "--map", small_drive_map().string()});
   const Sequence sequence = read_sequence(site);
   EXPECT_EQ(sequence.local_maps.size(), 1U + kSmallDriveFrames / 2U) << "a map every other frame";
   EXPECT_EQ(sequence.odometry->size(), kSmallDriveFrames);
@@ -67,22 +68,23 @@ TEST(Ground, WritesASiteThatLocalizes) {
   ASSERT_TRUE(last.elevation);
   EXPECT_NEAR(last.elevation->height_m.at(70, 60), 0.0, 0.03) << "the plane is at the robot's foot";
 
-  const Json run = json_of({"localize", site.string(), "-o", (scratch_folder() / "run").string(),
-                            "--prior", "truth", "--prior-spread", "1,2"});
+  const OrderedJson run =
+      ordered_json_of({"localize", site.string(), "-o", (scratch_folder() / "run").string(),
+                       "--prior", "truth", "--prior-spread", "1,2"});
   EXPECT_LT(run["evaluation"]["ape_trans_m"]["rmse"], 0.15) << run.dump(1);
 }
 
 TEST(Run, JoinsMappingAndLocalizing) {
   const fs::path run = scratch_folder() / "joined";
-  const Json document = json_of({"run", small_drive().string(), "--map", small_drive_map().string(),
-                                 "-o", run.string(), "--every", "2f", "--size", "12", "--prior",
-                                 "truth", "--prior-spread", "1,2"});
+  const OrderedJson document = ordered_json_of(
+      {"run", small_drive().string(), "--map", small_drive_map().string(), "-o", run.string(),
+       "--every", "2f", "--size", "12", "--prior", "truth", "--prior-spread", "1,2"});
   EXPECT_EQ(document["frames"], 1 + kSmallDriveFrames / 2);
   EXPECT_LT(document["evaluation"]["ape_trans_m"]["rmse"], 0.15) << document.dump(1);
   EXPECT_TRUE(fs::exists(run / "trajectory.tum"));
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
   EXPECT_FALSE(fs::exists(run / "site")) << "nothing in between is written";
-  EXPECT_EQ(Json::parse(read_file(run / "manifest.json"))["sources"]["drive"],
+  EXPECT_EQ(OrderedJson::parse(read_file(run / "manifest.json"))["sources"]["drive"],
             small_drive().string());
 }
 
@@ -93,7 +95,7 @@ TEST(Run, KeepsItsLocalMapsAndRunsSeveralSeeds) {
   const std::vector<std::string> mapping{"--every", "4f", "--size", "12"};
   std::vector<std::string> ground{"ground", small_drive().string(), "-o", site.string()};
   ground.insert(ground.end(), mapping.begin(), mapping.end());
-  json_of(ground);
+  ordered_json_of(ground);
   std::vector<std::string> both{"run",
                                 small_drive().string(),
                                 "-o",
@@ -110,12 +112,12 @@ TEST(Run, KeepsItsLocalMapsAndRunsSeveralSeeds) {
                                 "2",
                                 "--keep-maps"};
   both.insert(both.end(), mapping.begin(), mapping.end());
-  const Json document = json_of(both);
+  const OrderedJson document = ordered_json_of(both);
   EXPECT_EQ(document["runs"].size(), 2U);
   EXPECT_TRUE(fs::exists(run / "seed_0" / "trajectory.tum"));
   EXPECT_NE(read_file(run / "seed_0" / "trajectory.tum"),
             read_file(run / "seed_1" / "trajectory.tum"));
-  const Json sources = Json::parse(read_file(run / "manifest.json"))["sources"];
+  const OrderedJson sources = OrderedJson::parse(read_file(run / "manifest.json"))["sources"];
   EXPECT_EQ(sources["site"], (run / "site").string());
   const Sequence kept = read_sequence(run / "site");
   const Sequence written = read_sequence(site);
@@ -131,7 +133,7 @@ TEST(Run, KeepsItsLocalMapsAndRunsSeveralSeeds) {
 /// The local map shows the ground where the ground is.
 TEST(Ground, PutsTheGroundWhereItIs) {
   const fs::path site = scratch_folder() / "placed";
-  json_of(
+  ordered_json_of(
       {"ground", small_drive().string(), "-o", site.string(), "--every", "100m", "--size", "8"});
   const Sequence sequence = read_sequence(site);
   const Frame frame = read_frame(sequence, sequence.local_maps.back());
@@ -159,8 +161,8 @@ TEST(Ground, PutsTheGroundWhereItIs) {
 TEST(Ground, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto bytes_of = [](const std::string& threads) {
     const fs::path site = scratch_folder() / ("threads_" + threads);
-    json_of({"ground", small_drive().string(), "-o", site.string(), "--every", "4m", "--threads",
-             threads});
+    ordered_json_of({"ground", small_drive().string(), "-o", site.string(), "--every", "4m",
+                     "--threads", threads});
     std::string bytes;
     for (const auto& local_map : read_sequence(site).local_maps) {
       bytes += read_file(local_map.image) + read_file(*local_map.elevation);
@@ -175,7 +177,7 @@ TEST(Ground, ExplainsWithoutWriting) {
   const Outcome outcome =
       nadir({"ground", small_drive().string(), "-o", site.string(), "--dry-run", "--json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(Json::parse(outcome.output)["local_maps"], kSmallDriveFrames);
+  EXPECT_EQ(OrderedJson::parse(outcome.output)["local_maps"], kSmallDriveFrames);
   EXPECT_FALSE(fs::exists(site));
 }
 
@@ -198,7 +200,7 @@ TEST_P(GroundOnKitti, IsCoveredAndAgreesWithItself) {
   const RealDrive& real = GetParam();
   const auto drive = test::find_data(std::string("kitti_stereo/") + real.name);
   if (!drive) GTEST_SKIP() << test::kNoData;
-  const Json document = json_of(
+  const OrderedJson document = ordered_json_of(
       {"ground", drive->string(), "-o", (scratch_folder() / real.name).string(), "--self-check"});
   EXPECT_EQ(document["frames"], 51);
   EXPECT_GE(document["coverage_18m"], 0.96);

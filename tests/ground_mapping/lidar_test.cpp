@@ -15,8 +15,6 @@
 namespace nadir::test {
 namespace {
 
-Stamp at_step(int i) { return Stamp{100'000'000LL * i}; }
-
 bool same(const Raster<float>& a, const Raster<float>& b) {
   return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end(),
                     [](float x, float y) { return x == y || (x != x && y != y); });
@@ -42,7 +40,7 @@ LidarFrame dense(const Scene& scene, const LidarRig& rig, const OdomPose3& pose,
   return frame;
 }
 
-Scene street() {
+Scene ramped_street() {
   Scene scene;
   scene.kerb_y = 2.0;
   scene.kerb_height = 0.12;
@@ -56,8 +54,8 @@ const std::vector<LidarFrame>& street_frames() {
   static const std::vector<LidarFrame> frames = [] {
     std::vector<LidarFrame> made;
     for (int i = 0; i < 6; ++i) {
-      made.push_back(
-          dense(street(), make_lidar_rig(), pose_at(0.5 * i, 0.0, 0.0), at_step(i), 6.0, 0.04));
+      made.push_back(dense(ramped_street(), make_lidar_rig(), pose_at(0.5 * i, 0.0, 0.0),
+                           at_step(i), 6.0, 0.04));
     }
     return made;
   }();
@@ -85,7 +83,7 @@ TEST(PerfectDepth, HeightsAndColoursAreRight) {
     GroundMappingOptions options;
     options.colour_rule = rule;
     const LocalMap map = map_street({}, options, false, {.size_x_m = 9.0, .size_y_m = 6.0});
-    const Agreement a = agreement(truth_under(street(), map), map);
+    const Agreement a = agreement(truth_under(ramped_street(), map), map);
     EXPECT_LT(a.height_rmse_m, 0.002) << to_string(rule);
     EXPECT_GT(a.zncc, 0.98) << to_string(rule);
     EXPECT_LT(std::abs(a.shift_columns), 0.1) << to_string(rule);

@@ -77,19 +77,18 @@ TEST(Robustness, EveryDroppedPointHasAReason) {
 
 TEST(Robustness, APoseThatJumpsDropsTheMap) {
   GroundMapper mapper(bare_rig(), {});
-  const auto stamp = [](int i) { return Stamp{100'000'000LL * i}; };
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FALSE(mapper.integrate(flat(stamp(i)), pose_at(0.5 * i, 0.0, 0.0)).map_dropped);
+    EXPECT_FALSE(mapper.integrate(flat(at_step(i)), pose_at(0.5 * i, 0.0, 0.0)).map_dropped);
   }
   // Braking within what a robot can do is no jump.
-  EXPECT_FALSE(mapper.integrate(flat(stamp(3)), pose_at(1.3, 0.0, 0.0)).map_dropped);
-  const FrameStatistics moved = mapper.integrate(flat(stamp(4)), pose_at(3.3, 0.0, 0.0));
+  EXPECT_FALSE(mapper.integrate(flat(at_step(3)), pose_at(1.3, 0.0, 0.0)).map_dropped);
+  const FrameStatistics moved = mapper.integrate(flat(at_step(4)), pose_at(3.3, 0.0, 0.0));
   EXPECT_TRUE(moved.map_dropped);
   ASSERT_FALSE(moved.warnings.empty());
   EXPECT_NE(moved.warnings.front().find("the pose jumped by"), std::string::npos);
   EXPECT_GT(moved.cells_new, 1000) << "the map begins anew with this frame";
-  mapper.integrate(flat(stamp(5)), pose_at(3.5, 0.0, 0.0));
-  EXPECT_TRUE(mapper.integrate(flat(stamp(6)), pose_at(3.7, 0.0, 0.3)).map_dropped);
+  mapper.integrate(flat(at_step(5)), pose_at(3.5, 0.0, 0.0));
+  EXPECT_TRUE(mapper.integrate(flat(at_step(6)), pose_at(3.7, 0.0, 0.3)).map_dropped);
 }
 
 TEST(Robustness, WallsAreLeftOutOfTheGround) {

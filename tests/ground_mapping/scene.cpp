@@ -234,6 +234,8 @@ Agreement agreement(const Truth& truth, const LocalMap& map, double radius_m) {
   return result;
 }
 
+Stamp at_step(int number) { return Stamp{100'000'000LL * number}; }
+
 OdomPose3 pose_at(double x, double y, double yaw, double z) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, z}};
 }

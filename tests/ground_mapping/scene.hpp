@@ -68,6 +68,9 @@ struct Agreement {
 };
 Agreement agreement(const Truth& truth, const LocalMap& map, double radius_m = 1e9);
 
+/// Of a sensor that measures ten times a second.
+Stamp at_step(int number);
+
 /// The robot on its way: at x, level, heading `yaw`, `z` = ground.
 OdomPose3 pose_at(double x, double y, double yaw, double z = 0.0);
 

@@ -14,11 +14,9 @@
 namespace nadir::test {
 namespace {
 
-Stamp at_step(int i) { return Stamp{100'000'000LL * i}; }
-
 StereoRig small_rig() { return make_rig(1.2, radians(15.0), 400, 192, 380.0, 0.4); }
 
-Scene street() {
+Scene grainy_street() {
   Scene scene;
   scene.grain = 60.0;
   scene.kerb_y = 2.0;
@@ -43,7 +41,7 @@ Mapped drive(const Scene& scene, const StereoRig& rig, const GroundMappingOption
 }
 
 TEST(Stereo, MapsWhatItSees) {
-  const Scene scene = street();
+  const Scene scene = grainy_street();
   const Mapped run = drive(scene, small_rig(), {}, 8);
   const LocalMap map = run.mapper.render({.size_x_m = 10.0, .size_y_m = 8.0});
   const Agreement a = agreement(truth_under(scene, map), map);
@@ -57,7 +55,7 @@ TEST(Stereo, MapsWhatItSees) {
 }
 
 TEST(Stereo, OneAndSeveralThreadsGiveTheSameBytes) {
-  const Scene scene = street();
+  const Scene scene = grainy_street();
   LocalMap first;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -85,7 +83,7 @@ TEST(Stereo, HalfSizeSeesAsFar) {
   EXPECT_NEAR(scaled.max_range_m(), whole.max_range_m(), 1e-9);
   // Equation 4: sqrt(0.8 m * 152 px m / 0.5 px).
   EXPECT_NEAR(whole.max_range_m(), 15.5949, 1e-4);
-  const Scene scene = street();
+  const Scene scene = grainy_street();
   const LocalMap map = drive(scene, small_rig(), half, 8).mapper.render({.size_x_m = 8.0});
   EXPECT_LT(agreement(truth_under(scene, map), map, 4.0).height_rmse_m, 0.03);
 }
@@ -99,7 +97,7 @@ TEST(Stereo, RectifiesWhatIsNotRectified) {
   rig.right.p1 = 0.001;
   rig.right_from_left.rotation =
       Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d(0.3, 1.0, 0.5).normalized()));
-  const Scene scene = street();
+  const Scene scene = grainy_street();
   const LocalMap map = drive(scene, rig, {}, 10).mapper.render({.size_x_m = 8.0, .size_y_m = 6.0});
   const Agreement a = agreement(truth_under(scene, map), map);
   EXPECT_LT(a.height_rmse_m, 0.01);
@@ -141,7 +139,7 @@ TEST(Stereo, APlainImageGivesNoPoints) {
 }
 
 TEST(Stereo, RefusesSwappedImages) {
-  const Scene scene = street();
+  const Scene scene = grainy_street();
   const StereoRig rig = small_rig();
   StereoFrame frame = photograph(scene, rig, {}, Stamp{0});
   const StereoOrder right = stereo_order(rig, frame, {});

@@ -41,7 +41,7 @@ TEST(PhotoPoses, OwnFormatRoundTrips) {
   b.camera.fx = 900.0;
   write_photo_poses(folder / "map.poses.json", std::vector{a, b}, "EPSG:32615");
   const ImportedPoses read = read_photo_poses(folder / "map.poses.json");
-  EXPECT_EQ(read.frame, PoseFrame::kMap);
+  EXPECT_EQ(read.frame, PhotoPoseFrame::kMap);
   EXPECT_EQ(read.crs, "EPSG:32615");
   ASSERT_EQ(read.poses.size(), 2U);
   EXPECT_EQ(read.poses[0].camera, a.camera);
@@ -69,7 +69,7 @@ TEST(PhotoPoses, ReadsAColmapTextModel) {
                    "# Image list\n1 0 1 0 0 -10 20 30 1 a.jpg\n100.5 200.5 7 101.5 201.5 8\n"
                    "2 1 0 0 0 0 0 5 2 b.jpg\n\n");
   const ImportedPoses read = read_photo_poses(folder.path());
-  EXPECT_EQ(read.frame, PoseFrame::kModel);
+  EXPECT_EQ(read.frame, PhotoPoseFrame::kModel);
   ASSERT_EQ(read.poses.size(), 2U);
   EXPECT_EQ(read.poses[0].camera,
             (CameraModel{1600, 900, 936, 937, 799.5, 449.5, -0.01, 0.002, 0.0001, 0.0002, 0}))
@@ -99,7 +99,7 @@ TEST(PhotoPoses, ReadsOpenSfmAndPlacesIt) {
                   "longitude": 5.9, "altitude": 120.0}}}}])",
                   camera, shot));
   const ImportedPoses read = read_photo_poses(folder.path());
-  ASSERT_EQ(read.frame, PoseFrame::kTopocentric);
+  ASSERT_EQ(read.frame, PhotoPoseFrame::kTopocentric);
   ASSERT_EQ(read.poses.size(), 1U);
   EXPECT_NEAR(read.poses[0].camera.fx, 800.0, 1e-12);
   EXPECT_NEAR(read.poses[0].camera.cx, 799.5 + 16.0, 1e-12);
@@ -144,7 +144,7 @@ TEST(PhotoPoses, ReadsMetashapeAndPlacesIt) {
           row(rotation, 0), inside.x(), row(rotation, 1), inside.y(), row(rotation, 2), inside.z(),
           row(chunk, 0), row(chunk, 1), row(chunk, 2), shift.x(), shift.y(), shift.z()));
   const ImportedPoses read = read_photo_poses(folder / "cameras.xml");
-  ASSERT_EQ(read.frame, PoseFrame::kGeocentric);
+  ASSERT_EQ(read.frame, PhotoPoseFrame::kGeocentric);
   ASSERT_EQ(read.poses.size(), 1U) << "b was not aligned";
   EXPECT_EQ(read.poses[0].camera,
             (CameraModel{4000, 3000, 2400, 2400, 2009.5, 1494.5, -0.02, 0, 0.002, 0.001, 0}));

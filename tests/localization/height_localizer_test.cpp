@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "localization/textured_drive.hpp"
 #include "map_matching/height_fields.hpp"
 #include "map_matching/random_maps.hpp"
 #include "nadir/localizer.hpp"
@@ -13,17 +14,16 @@ namespace nadir {
 namespace {
 
 using test::centred;
+using test::kFrames;
+using test::kMapGeo;
+using test::kTexture;
+using test::map_image;
 using test::Street;
-using test::Texture;
+using test::truth_at;
 
-constexpr int kFrames = 12;
 constexpr int kSide = 100;
-const Texture kTexture(31);
-const GeoReference kMapGeo{0.0, 20.0, 0.1, {}};
 
-Orthomosaic map_image() { return test::render(kTexture, 300, 200, kMapGeo, Pose2{}); }
 ElevationMap surface() { return test::heights_of(Street(5, 0.03, 41.0), 300, 200, kMapGeo, {}); }
-Pose2 truth_at(int frame) { return {8.0 + 0.6 * frame, 9.0 + 0.15 * frame, 0.25 + 0.02 * frame}; }
 
 /// A drive whose odometry falls short by 6 %.
 std::vector<Frame> drive(bool with_colour, bool with_heights) {

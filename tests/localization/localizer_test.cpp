@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "localization/textured_drive.hpp"
 #include "map_matching/random_maps.hpp"
 #include "nadir/core/error.hpp"
 
@@ -14,15 +15,12 @@ namespace nadir {
 namespace {
 
 using test::centred;
+using test::kFrames;
+using test::kTexture;
+using test::map_image;
 using test::render;
 using test::Texture;
-
-constexpr int kFrames = 12;
-const Texture kTexture(31);
-
-Orthomosaic map_image() { return render(kTexture, 300, 200, {0.0, 20.0, 0.1, {}}, Pose2{}); }
-
-Pose2 truth_at(int frame) { return {8.0 + 0.6 * frame, 9.0 + 0.15 * frame, 0.25 + 0.02 * frame}; }
+using test::truth_at;
 
 /// A drive whose odometry falls short by 6 %.
 std::vector<Frame> drive(bool with_odometry) {

@@ -18,11 +18,12 @@ using test::render;
 using test::Texture;
 
 const Texture kTexture(21);
-constexpr int kLocalSize = 60;
+constexpr int kSmallLocalSize = 60;
 
 Orthomosaic map_image() { return render(kTexture, 240, 130, {0.0, 13.0, 0.1, {}}, Pose2{}); }
 
-Orthomosaic local_image(const Pose2& pose, int width = kLocalSize, int height = kLocalSize) {
+Orthomosaic local_image(const Pose2& pose, int width = kSmallLocalSize,
+                        int height = kSmallLocalSize) {
   return render(kTexture, width, height, centred(width, height, 0.1), pose);
 }
 
@@ -76,7 +77,7 @@ TEST(AuthorFaults, RotationThatFillsWithZeroes) {
     }
   }
   EXPECT_EQ(turned.mask.at(0, 0), 0.0F);  // a corner of the bounding box is no pixel
-  EXPECT_NEAR(used, kLocalSize * kLocalSize, 0.02 * kLocalSize * kLocalSize);
+  EXPECT_NEAR(used, kSmallLocalSize * kSmallLocalSize, 0.02 * kSmallLocalSize * kSmallLocalSize);
 }
 
 TEST(AuthorFaults, NoMinimumOverlap) {

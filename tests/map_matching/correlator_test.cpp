@@ -44,16 +44,17 @@ double cyclic_sum(const Raster<float>& map, const Raster<float>& local, int x, i
   return sum;
 }
 
-struct Case {
+struct CorrelatorCase {
   int map_width, map_height, local_width, local_height;
   cpu::CorrelationWindow window;
 };
 
 TEST(Correlator, EqualsSumsWrittenOut) {
-  const Case cases[] = {{1, 1, 1, 1, {0, 0, 1, 1}},      {7, 3, 2, 3, {-2, -1, 9, 5}},
-                        {37, 41, 5, 9, {-4, 3, 40, 45}}, {64, 20, 11, 7, {10, -6, 33, 31}},
-                        {23, 90, 23, 1, {0, 0, 1, 90}},  {50, 50, 33, 40, {-32, -39, 82, 89}}};
-  for (const Case& c : cases) {
+  const CorrelatorCase cases[] = {
+      {1, 1, 1, 1, {0, 0, 1, 1}},      {7, 3, 2, 3, {-2, -1, 9, 5}},
+      {37, 41, 5, 9, {-4, 3, 40, 45}}, {64, 20, 11, 7, {10, -6, 33, 31}},
+      {23, 90, 23, 1, {0, 0, 1, 90}},  {50, 50, 33, 40, {-32, -39, 82, 89}}};
+  for (const CorrelatorCase& c : cases) {
     const cpu::Correlator correlator(c.map_width + c.local_width - 1,
                                      c.map_height + c.local_height - 1);
     const Raster<float> maps[] = {random_raster(1, c.map_width, c.map_height),

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "support/nan.hpp"
 
 namespace nadir::report {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kNan;
 
 Colour pixel(const Raster<std::uint8_t>& figure, int column, int row) {
   return {figure.at(column, row, 0), figure.at(column, row, 1), figure.at(column, row, 2)};

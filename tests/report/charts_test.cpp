@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "nadir/report/markup.hpp"
+#include "support/nan.hpp"
 
 namespace nadir {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kNan;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The `d` of every path of these classes, in their order.

@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "nadir/report/map_figure.hpp"
+#include "support/nan.hpp"
 
 namespace nadir {
 namespace {
 
 using report::Colour;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kNan;
 
 Orthomosaic grey_map(int width = 400, int height = 300) {
   return {Raster<std::uint8_t>(width, height, 120),

@@ -14,10 +14,7 @@
 namespace nadir {
 namespace {
 
-const SimulatedWorld& campus() {
-  static const SimulatedWorld kWorld = SimulatedWorld::make(3, test::small_world());
-  return kWorld;
-}
+using test::campus;
 
 Appearance quiet() {
   Appearance appearance = drive_appearance();

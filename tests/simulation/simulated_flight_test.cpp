@@ -14,6 +14,8 @@
 namespace nadir {
 namespace {
 
+using test::campus;
+
 FlightOptions perfect_camera() {
   FlightOptions options;
   options.height_m = 30.0;
@@ -27,11 +29,6 @@ FlightOptions perfect_camera() {
   options.vignetting = options.blur_px = options.noise_grey = 0.0;
   options.exposure_drift = options.white_balance_drift = 0.0;
   return options;
-}
-
-const SimulatedWorld& campus() {
-  static const SimulatedWorld kWorld = SimulatedWorld::make(3, test::small_world());
-  return kWorld;
 }
 
 Appearance without_traffic() {

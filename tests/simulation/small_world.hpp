@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "nadir/simulation/simulated_world.hpp"
 
@@ -15,6 +16,11 @@ inline WorldOptions small_world() {
   options.margin_m = 5.0;
   options.texel_m = 0.10;
   return options;
+}
+
+inline const SimulatedWorld& campus() {
+  static const SimulatedWorld kWorld = SimulatedWorld::make(3, small_world());
+  return kWorld;
 }
 
 /// Zero-mean normalised cross-correlation of two columns of numbers.

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 
@@ -18,13 +19,6 @@ using Names = std::vector<std::string>;
 
 constexpr double kMetresPerDegree = 111320.0;  // of latitude; good enough for neighbourhoods
 constexpr double kJump = 20.0;                 // times the usual distance to the next photo
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double distance_m(const GeodeticPosition& a, const GeodeticPosition& b) {
   const double east = std::remainder(b.longitude_deg - a.longitude_deg, 360.0) *
@@ -62,7 +56,7 @@ void take_back_jumps(std::vector<PhotoMetadata>& photos, Names& warnings) {
   }
   constexpr std::size_t kEnough = 4;
   if (usual.size() < kEnough) return;
-  const double limit = kJump * std::max(median(usual), 1.0);
+  const double limit = kJump * std::max(aerial::median_of(usual), 1.0);
   Names far;
   for (std::size_t i = 0; i < photos.size(); ++i) {
     if (!photos[i].position || nearest[i] <= limit) continue;
@@ -228,7 +222,7 @@ FlightEstimate estimate_flight(const std::vector<PhotoMetadata>& photos) {
     pixels.push_back(*photo.relative_altitude_m / focal);
     footprint = std::max(footprint, pixels.back() * std::max(photo.width, photo.height));
   }
-  estimate.photo_pixel_m = median(pixels);
+  estimate.photo_pixel_m = aerial::median_of(pixels);
   std::vector<GeodeticPosition> places;
   for (const PhotoMetadata& photo : photos) {
     if (photo.position) places.push_back(*photo.position);

@@ -55,6 +55,12 @@ struct Transform2 {
   bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(yaw); }
 };
 
+/// Metres between the positions of two poses.
+template <class To, class From>
+double distance(const Transform2<To, From>& a, const Transform2<To, From>& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
 /// The pose of the robot in the map: `map_from_robot`.
 using Pose2 = Transform2<frames::Map, frames::Robot>;
 /// The pose of the robot in its odometry frame.

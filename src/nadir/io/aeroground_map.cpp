@@ -7,10 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "nadir/io/orthomosaic_file.hpp"
+
 namespace nadir {
 namespace {
 
-constexpr std::uint8_t kSeen = 255;
 constexpr int kBlackest = 4;         ///< brightest value of the unseen, after JPEG
 constexpr int kWhitest = 250;        ///< darkest value of a hole, after JPEG
 constexpr int kLargestShadow = 400;  ///< pixels; larger black regions are unseen

@@ -14,7 +14,7 @@
 namespace nadir {
 namespace {
 
-Error write_error(const std::filesystem::path& target, int system_error) {
+Error system_write_error(const std::filesystem::path& target, int system_error) {
   return {ErrorKind::kProcessing,
           "cannot be written: " + std::generic_category().message(system_error), target.string(),
           "check the folder, its permissions and the free space"};
@@ -52,7 +52,7 @@ AtomicFile::AtomicFile(std::filesystem::path target)
   std::error_code ignored;
   const std::filesystem::path folder = target_.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-    throw write_error(target_, ENOTDIR);
+    throw system_write_error(target_, ENOTDIR);
   }
 }
 
@@ -65,19 +65,19 @@ void AtomicFile::write(std::string_view bytes) {
   constexpr int kReadableByUmask = 0666;
   const Descriptor file(
       ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kReadableByUmask));
-  if (file.number() < 0) throw write_error(target_, errno);
+  if (file.number() < 0) throw system_write_error(target_, errno);
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw write_error(target_, errno);
+    if (written < 0) throw system_write_error(target_, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
 void AtomicFile::commit() {
   const Descriptor file(::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.number() < 0 || ::fsync(file.number()) != 0) throw write_error(target_, errno);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw write_error(target_, errno);
+  if (file.number() < 0 || ::fsync(file.number()) != 0) throw system_write_error(target_, errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw system_write_error(target_, errno);
 }
 
 void write_file(const std::filesystem::path& target, std::string_view bytes) {
@@ -89,13 +89,13 @@ void write_file(const std::filesystem::path& target, std::string_view bytes) {
 void remove_file(const std::filesystem::path& target) {
   std::error_code error;
   std::filesystem::remove(target, error);
-  if (error) throw write_error(target, error.value());
+  if (error) throw system_write_error(target, error.value());
 }
 
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw write_error(folder, error.value());
+  if (error) throw system_write_error(folder, error.value());
 }
 
 }  // namespace nadir

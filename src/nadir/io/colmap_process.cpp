@@ -17,11 +17,11 @@ namespace nadir {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
 /// Its window library must not look for a screen.
-Words environment() {
-  Words variables;
+Arguments environment() {
+  Arguments variables;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     if (!std::string(*entry).starts_with("QT_QPA_PLATFORM=")) variables.emplace_back(*entry);
   }
@@ -29,15 +29,15 @@ Words environment() {
   return variables;
 }
 
-std::vector<char*> pointers(Words& words) {
+std::vector<char*> pointers(Arguments& words) {
   std::vector<char*> result;
   for (std::string& word : words) result.push_back(word.data());
   result.push_back(nullptr);
   return result;
 }
 
-void run(Words arguments, const fs::path& log) {
-  Words variables = environment();
+void run(Arguments arguments, const fs::path& log) {
+  Arguments variables = environment();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
@@ -91,14 +91,14 @@ ImportedPoses run_colmap(const fs::path& photos, const std::vector<std::string>&
   for (const std::string& name : names) list += name + "\n";
   write_file(work / "photos.txt", list);
   create_folder(work / "sparse");
-  const std::vector<Words> programs{
+  const std::vector<Arguments> programs{
       {"colmap", "feature_extractor", "--database_path", database, "--image_path", images,
        "--image_list_path", (work / "photos.txt").string(), "--ImageReader.single_camera", "1",
        "--ImageReader.camera_model", "OPENCV", "--SiftExtraction.use_gpu", "0"},
       {"colmap", "exhaustive_matcher", "--database_path", database, "--SiftMatching.use_gpu", "0"},
       {"colmap", "mapper", "--database_path", database, "--image_path", images, "--output_path",
        (work / "sparse").string()}};
-  for (const Words& program : programs) {
+  for (const Arguments& program : programs) {
     if (step) step("colmap " + program.at(1));
     run(program, log);
   }

@@ -10,6 +10,7 @@
 
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/detail/image_bytes.hpp"
+#include "nadir/io/detail/image_view.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -31,10 +32,6 @@ cv::Mat decode(const std::filesystem::path& path, std::string& bytes) {
     throw input_error(path, "the image cannot be decoded: " + exception.err,
                       "check or convert it with an image program");
   }
-}
-
-cv::Mat view_of(Raster<std::uint8_t>& image) {
-  return {image.height(), image.width(), CV_8UC(image.channels()), image.values().data()};
 }
 
 cv::Mat in_opencv_order(Raster<std::uint8_t> image) {

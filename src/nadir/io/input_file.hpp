@@ -17,6 +17,9 @@ inline Error input_error(const std::filesystem::path& path, const std::string& p
   return {ErrorKind::kInput, problem, path.string(), remedy};
 }
 
+/// The extension with its point, in small letters; "" where there is none.
+std::string lower_extension(const std::filesystem::path& path);
+
 /// "file:line", the place that an error names.
 std::string file_and_line(const std::filesystem::path& path, int line);
 

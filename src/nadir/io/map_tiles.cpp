@@ -29,35 +29,6 @@ struct Window {
   int tile_height = 0;
 };
 
-/// The newest encoded tiles, up to kCacheBytes.
-class TileCache {
- public:
-  using Key = std::tuple<int, int, int>;
-
-  const EncodedImage* find(const Key& key) {
-    const auto found = places_.find(key);
-    if (found == places_.end()) return nullptr;
-    order_.splice(order_.begin(), order_, found->second);
-    return &found->second->second;
-  }
-
-  void insert(const Key& key, EncodedImage image) {
-    bytes_ += image.bytes.size();
-    order_.emplace_front(key, std::move(image));
-    places_[key] = order_.begin();
-    while (bytes_ > kCacheBytes && order_.size() > 1) {
-      bytes_ -= order_.back().second.bytes.size();
-      places_.erase(order_.back().first);
-      order_.pop_back();
-    }
-  }
-
- private:
-  std::list<std::pair<Key, EncodedImage>> order_;
-  std::map<Key, decltype(order_)::iterator> places_;
-  std::size_t bytes_ = 0;
-};
-
 cv::Mat read_window(GDALRasterBand& band, const Window& window, const std::filesystem::path& path) {
   cv::Mat pixels(window.tile_height, window.tile_width, CV_8U);
   GDALRasterIOExtraArg how;
@@ -96,6 +67,35 @@ EncodedImage encode(const cv::Mat& colours, const cv::Mat& mask) {
 }  // namespace
 
 struct MapTiles::Source {
+  /// The newest encoded tiles, up to kCacheBytes.
+  class TileCache {
+   public:
+    using Key = std::tuple<int, int, int>;
+
+    const EncodedImage* find(const Key& key) {
+      const auto found = places_.find(key);
+      if (found == places_.end()) return nullptr;
+      order_.splice(order_.begin(), order_, found->second);
+      return &found->second->second;
+    }
+
+    void insert(const Key& key, EncodedImage image) {
+      bytes_ += image.bytes.size();
+      order_.emplace_front(key, std::move(image));
+      places_[key] = order_.begin();
+      while (bytes_ > kCacheBytes && order_.size() > 1) {
+        bytes_ -= order_.back().second.bytes.size();
+        places_.erase(order_.back().first);
+        order_.pop_back();
+      }
+    }
+
+   private:
+    std::list<std::pair<Key, EncodedImage>> order_;
+    std::map<Key, decltype(order_)::iterator> places_;
+    std::size_t bytes_ = 0;
+  };
+
   std::filesystem::path path;
   GdalDataset dataset;
   std::vector<int> bands;  ///< blue, green, red; or grey
@@ -130,7 +130,7 @@ std::optional<EncodedImage> MapTiles::tile(int level, int column, int row) {
   if (column * side >= width_ || row * side >= height_) return std::nullopt;
 
   const std::scoped_lock lock(source_->mutex);
-  const TileCache::Key key{level, column, row};
+  const Source::TileCache::Key key{level, column, row};
   if (const EncodedImage* cached = source_->cache.find(key)) return *cached;
   Window window;
   window.left = static_cast<int>(column * side);

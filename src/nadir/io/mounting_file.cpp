@@ -18,8 +18,8 @@ namespace {
 
 using std::filesystem::path;
 
-const std::array<std::string, 5> kKeys{"version", "robot_from_camera", "robot_from_lidar",
-                                       "camera_height_m", "camera_pitch_deg"};
+const std::array<std::string, 5> kMountingKeys{"version", "robot_from_camera", "robot_from_lidar",
+                                               "camera_height_m", "camera_pitch_deg"};
 const std::array<std::string, 2> kTransformKeys{"translation_m", "rotation_xyzw"};
 
 Error key_error(const YAML::Node& node, const path& file, const std::string& problem) {
@@ -32,11 +32,7 @@ std::vector<double> numbers_at(const YAML::Node& map, const std::string& key, st
   if (!list || !list.IsSequence() || list.size() != count) {
     throw key_error(map, file, fmt::format("'{}' must be a list of {} numbers", key, count));
   }
-  std::vector<double> numbers;
-  for (const YAML::Node& entry : list) {
-    numbers.push_back(number_in_file(entry.Scalar(), key, place_of(list, file)));
-  }
-  return numbers;
+  return numbers_in(list, key, file);
 }
 
 template <class Sensor>
@@ -80,7 +76,7 @@ void emit(YAML::Emitter& out, const char* key, const Transform3<frames::Robot, S
 
 Mounting read_mounting(const path& file) {
   const YAML::Node root = load_yaml(file, ErrorKind::kInput);
-  check_keys(root, kKeys, file);
+  check_keys(root, kMountingKeys, file);
   Mounting mounting;
   if (root["robot_from_lidar"]) {
     mounting.robot_from_lidar = transform_at<frames::Lidar>(root["robot_from_lidar"], file);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
 #include "nadir/core/orthomosaic.hpp"
 
 namespace nadir {
+
+/// What stands in the mask of an orthomosaic that was read, where it is no hole.
+inline constexpr std::uint8_t kSeen = 255;
 
 /// The scale of an image that carries no geo-reference.
 struct PlainImageGeo {

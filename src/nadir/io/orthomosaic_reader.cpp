@@ -16,8 +16,6 @@
 namespace nadir {
 namespace {
 
-constexpr std::uint8_t kSeen = 255;
-
 void check_pixel_type(GDALDataset& dataset, const std::filesystem::path& path) {
   for (int number = 1; number <= dataset.GetRasterCount(); ++number) {
     GDALRasterBand& band = *dataset.GetRasterBand(number);
@@ -59,9 +57,7 @@ std::string translate_line(const std::filesystem::path& path, const std::string&
 void check_orthomosaic_file(const std::filesystem::path& path) {
   if (path.string().starts_with("/vsi")) return;  // GDAL's virtual file systems
   check_input_file(path);
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
     check_image_is_whole(path, read_file(path));
   }

@@ -2,7 +2,6 @@
 #include "nadir/io/photo_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -11,22 +10,12 @@
 
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/detail/exif.hpp"
+#include "nadir/io/detail/image_view.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
-
-cv::Mat view_of(Raster<std::uint8_t>& image) {
-  return {image.height(), image.width(), CV_8UC(image.channels()), image.values().data()};
-}
 
 Raster<std::uint8_t> reduced(Raster<std::uint8_t> image, int max_image_px) {
   const ImageSize size = reduced_size(image.width(), image.height(), max_image_px);

@@ -16,10 +16,6 @@
 namespace nadir {
 namespace {
 
-struct XmlCloser {
-  void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
-};
-
 /// The first number in a text such as "+39.80" or "(0.0027)".
 std::optional<double> number(const std::string& text) {
   const std::size_t begin = text.find_first_of("-.0123456789");
@@ -73,7 +69,7 @@ std::map<std::string, std::string> read_xmp(GDALDataset& dataset) {
   std::map<std::string, std::string> values;
   char** packet = dataset.GetMetadata("xml:XMP");
   if (packet == nullptr || packet[0] == nullptr) return values;
-  const std::unique_ptr<CPLXMLNode, XmlCloser> tree(CPLParseXMLString(packet[0]));
+  const XmlTree tree(CPLParseXMLString(packet[0]));
   collect(tree.get(), values);
   return values;
 }
@@ -88,7 +84,8 @@ std::string read_head(const std::filesystem::path& path) {
 }
 
 /// Degrees out of up to three rationals; absent where the parts are impossible.
-std::optional<double> degrees(const std::array<double, 3>& parts, const std::string& reference) {
+std::optional<double> decimal_degrees(const std::array<double, 3>& parts,
+                                      const std::string& reference) {
   const double value = parts[0] + parts[1] / 60.0 + parts[2] / 3600.0;
   if (!std::isfinite(value) || value > 180.0) return std::nullopt;
   return reference.starts_with('S') || reference.starts_with('W') ? -value : value;
@@ -128,8 +125,8 @@ bool read_exif_position(const ExifTags& exif, const std::string& head, GeodeticP
   const auto latitude = value(kGpsLatitude, "GPSLatitude");
   const auto longitude = value(kGpsLongitude, "GPSLongitude");
   if (!latitude || !longitude) return false;
-  const auto north = degrees(*latitude, exif.text("GPSLatitudeRef"));
-  const auto east = degrees(*longitude, exif.text("GPSLongitudeRef"));
+  const auto north = decimal_degrees(*latitude, exif.text("GPSLatitudeRef"));
+  const auto east = decimal_degrees(*longitude, exif.text("GPSLongitudeRef"));
   if (!north || !east || std::abs(*north) > 90.0) return false;
   position.latitude_deg = *north;
   position.longitude_deg = *east;

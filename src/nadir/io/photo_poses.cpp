@@ -46,19 +46,19 @@ std::vector<PhotoPose> in_map_frame(const ImportedPoses& imported, const MetricF
   for (const PhotoPose& pose : imported.poses) {
     const Eigen::Vector3d& centre = pose.map_from_camera.translation;
     switch (imported.frame) {
-      case PoseFrame::kMap:
+      case PhotoPoseFrame::kMap:
         poses.push_back(pose);
         break;
-      case PoseFrame::kGeocentric:
+      case PhotoPoseFrame::kGeocentric:
         poses.push_back(from_earth(pose, centre, Eigen::Matrix3d::Identity(), frame));
         break;
-      case PoseFrame::kTopocentric: {
+      case PhotoPoseFrame::kTopocentric: {
         const Eigen::Matrix3d axes = geocentric_from_enu(imported.reference);
         poses.push_back(
             from_earth(pose, geocentric(imported.reference) + axes * centre, axes, frame));
         break;
       }
-      case PoseFrame::kModel:
+      case PhotoPoseFrame::kModel:
         throw Error(ErrorKind::kProcessing, "the poses have no place on the Earth yet");
     }
   }

@@ -12,7 +12,7 @@
 namespace nadir {
 
 /// The frame that imported poses are given in.
-enum class PoseFrame {
+enum class PhotoPoseFrame {
   kModel,        ///< arbitrary origin, axes and scale
   kTopocentric,  ///< east, north, up of a reference point
   kGeocentric,   ///< earth-centred
@@ -22,7 +22,7 @@ enum class PoseFrame {
 /// Poses of photos that another program found; cameras with pixels of the size that it worked at.
 struct ImportedPoses {
   std::vector<PhotoPose> poses;
-  PoseFrame frame = PoseFrame::kModel;
+  PhotoPoseFrame frame = PhotoPoseFrame::kModel;
   GeodeticPosition reference;  ///< of kTopocentric
   std::string crs;             ///< of kMap; may be empty: local metres
   std::vector<std::string> warnings;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/detail/nine_decimals.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -108,11 +109,6 @@ FilePose parse(PoseFileKind kind, const std::string& where, const Words& words) 
 }
 
 /// Nine decimals; a number that rounds to zero carries no sign.
-std::string fixed(double value) {
-  std::string text = fmt::format("{:.9f}", value);
-  return text == "-0.000000000" ? text.substr(1) : text;
-}
-
 }  // namespace
 
 PoseFile read_pose_file(const std::filesystem::path& path) {
@@ -150,7 +146,7 @@ void write_tum(const std::filesystem::path& path, const std::vector<StampedOdomP
     text += to_string(stamp);
     for (const double value : {pose.translation.x(), pose.translation.y(), pose.translation.z(),
                                q.x(), q.y(), q.z(), q.w()}) {
-      text += " " + fixed(value);
+      text += " " + nine_decimals(value);
     }
     text += "\n";
   }

@@ -19,8 +19,8 @@ namespace {
 
 using std::filesystem::path;
 
-const std::array<std::string, 8> kKeys{"version",    "name",     "map",   "surface",
-                                       "local_maps", "odometry", "truth", "calibration"};
+const std::array<std::string, 8> kSequenceKeys{"version",    "name",     "map",   "surface",
+                                               "local_maps", "odometry", "truth", "calibration"};
 const std::array<std::string, 4> kLocalMapKeys{"number", "stamp", "image", "elevation"};
 
 /// sequence.yaml while it is read: the folder that it speaks of, and its own path for the errors.
@@ -144,7 +144,7 @@ Sequence read_sequence(const path& folder) {
                       "it is no sequence folder, or its conversion did not finish; convert again");
   }
   const YAML::Node root = load_yaml(index.file, ErrorKind::kInput);
-  check_keys(root, kKeys, index.file);
+  check_keys(root, kSequenceKeys, index.file);
   if (const int version = integer_at(root, "version", index);
       version != sequence_format::kVersion) {
     throw index.error(root["version"], fmt::format("format version {} is not known", version),

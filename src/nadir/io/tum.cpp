@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/detail/nine_decimals.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -70,11 +71,6 @@ TrajectoryIn<In> read(const std::filesystem::path& path) {
 }
 
 /// Nine decimals; a number that rounds to zero carries no sign.
-std::string fixed(double value) {
-  std::string text = fmt::format("{:.9f}", value);
-  return text == "-0.000000000" ? text.substr(1) : text;
-}
-
 template <class In>
 void write(const std::filesystem::path& path, const TrajectoryIn<In>& trajectory) {
   std::string text = kHeader;
@@ -87,8 +83,9 @@ void write(const std::filesystem::path& path, const TrajectoryIn<In>& trajectory
                   path.string());
     }
     const double half = wrap_angle(pose.yaw) / 2.0;
-    text += fmt::format("{} {} {} 0 0 0 {} {}\n", to_string(stamp), fixed(pose.x), fixed(pose.y),
-                        fixed(std::sin(half)), fixed(std::cos(half)));
+    text += fmt::format("{} {} {} 0 0 0 {} {}\n", to_string(stamp), nine_decimals(pose.x),
+                        nine_decimals(pose.y), nine_decimals(std::sin(half)),
+                        nine_decimals(std::cos(half)));
   }
   write_file(path, text);
 }

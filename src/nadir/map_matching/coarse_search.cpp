@@ -17,8 +17,6 @@ constexpr int kCoarsePlaces = 192;
 constexpr int kFinePlaces = 48;
 constexpr int kClimbedPlaces = 16;
 
-double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 /// The best of `places`, best first, no two of which are closer than both limits.
 std::vector<MatchCandidate> best_places(std::vector<MatchCandidate> places, std::size_t count,
                                         double separation, double yaw_separation) {

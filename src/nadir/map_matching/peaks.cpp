@@ -86,8 +86,6 @@ MatchCandidate refine(const ScoreVolume& volume, const Voxel& voxel) {
   return candidate;
 }
 
-double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 double median_score(const ScoreVolume& volume) {
   std::vector<float> scores;
   for (const Raster<float>& surface : volume.score) {

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/cpu/fft_size.hpp"
 #include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
 namespace {
-
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 /// Between two headings the edge of a template moves by at most so many map pixels.
 constexpr double kYawStepPx = 0.75;
@@ -139,7 +137,7 @@ class PoseSurfaces {
         }
       }
     }
-    if (result.valid_weight < map_.options().min_valid_weight) result.score = kUndefined;
+    if (result.valid_weight < map_.options().min_valid_weight) result.score = kUndefinedScore;
     return result;
   }
 
@@ -183,7 +181,7 @@ std::vector<PoseScore> score_by_surfaces(const MapIndex& map, const Template& lo
   std::vector<std::size_t> left_over;
   for (const Pose2& pose : map_from_robot) {
     const bool near = is_near(map.channel().geo.pixel_at(pose.x, pose.y), pose);
-    scores.push_back(near ? surfaces.at(pose) : PoseScore{kUndefined, 0.0});
+    scores.push_back(near ? surfaces.at(pose) : PoseScore{kUndefinedScore, 0.0});
     if (std::isnan(scores.back().score) &&
         scores.back().valid_weight >= map.options().min_valid_weight) {
       left_over.push_back(scores.size() - 1);

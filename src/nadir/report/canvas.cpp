@@ -11,7 +11,6 @@ namespace nadir::report {
 namespace {
 
 constexpr int kSubpixelBits = 4;
-constexpr double kFine = Canvas::kOversampling;
 constexpr double kHaloWidth = 1.2;  ///< on each side of a line
 
 cv::Scalar scalar(Colour colour) {

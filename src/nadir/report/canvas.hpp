@@ -103,4 +103,6 @@ int fine_pixels(double length);
 /// Width of a text in pixels.
 double text_width(std::string_view text, const TextStyle& style);
 
+inline constexpr double kFine = Canvas::kOversampling;  ///< fine pixels per pixel
+
 }  // namespace nadir::report

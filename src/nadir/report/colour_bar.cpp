@@ -9,9 +9,9 @@
 namespace nadir::report {
 namespace {
 
-constexpr double kTextSize = 18.0;
-const TextStyle kBelow{kTextSize, kMuted, Align::kCentre, false, {}};
-const TextStyle kBeside{kTextSize, kMuted, Align::kLeft, false, {}};
+constexpr double kBarTextSize = 18.0;
+const TextStyle kBelow{kBarTextSize, kMuted, Align::kCentre, false, {}};
+const TextStyle kBeside{kBarTextSize, kMuted, Align::kLeft, false, {}};
 
 void draw_gradient(Canvas& canvas, const Box& box, ColourMap map) {
   const bool upright = box.height > box.width;

@@ -12,8 +12,7 @@ namespace {
 using namespace report;
 
 constexpr double kSide = 420.0;
-constexpr double kGap = 30.0;
-constexpr double kCaption = 44.0;
+constexpr double kPictureGap = 30.0;
 
 double row_height(const Comparison& comparison) {
   const double longer = std::max({1, comparison.local.width(), comparison.local.height()});
@@ -21,7 +20,7 @@ double row_height(const Comparison& comparison) {
 }
 
 Box column_box(std::size_t column, double top) {
-  return {kMargin + (kSide + kGap) * static_cast<double>(column), top, kSide, kSide};
+  return {kMargin + (kSide + kPictureGap) * static_cast<double>(column), top, kSide, kSide};
 }
 
 /// From the corner of a patch to the north of the map, as the robot sees it.
@@ -68,15 +67,15 @@ void draw_row(Canvas& canvas, const Orthomosaic& map, const Comparison& comparis
 Figure draw_comparisons(const Orthomosaic& map, const std::vector<Comparison>& comparisons,
                         const std::string& title) {
   double height = kMargin + kTitleHeight;
-  for (const Comparison& comparison : comparisons) height += row_height(comparison) + kGap;
+  for (const Comparison& comparison : comparisons) height += row_height(comparison) + kPictureGap;
   if (comparisons.empty()) height += kSide;
-  Canvas canvas(static_cast<int>(2.0 * kMargin + 3.0 * kSide + 2.0 * kGap),
-                static_cast<int>(height + kMargin - kGap));
+  Canvas canvas(static_cast<int>(2.0 * kMargin + 3.0 * kSide + 2.0 * kPictureGap),
+                static_cast<int>(height + kMargin - kPictureGap));
   draw_title(canvas, title);
   double top = kMargin + kTitleHeight + kCaption;
   for (const Comparison& comparison : comparisons) {
     draw_row(canvas, map, comparison, top);
-    top += row_height(comparison) + kGap;
+    top += row_height(comparison) + kPictureGap;
   }
   if (comparisons.empty()) {
     draw_note(canvas, column_box(1, top), "nothing to show: no local map");

@@ -12,8 +12,8 @@ namespace {
 
 using namespace report;
 
-constexpr int kWidth = 1900;
-constexpr int kHeight = 1250;
+constexpr int kSheetWidth = 1900;
+constexpr int kSheetHeight = 1250;
 constexpr double kRight = 1090.0;  ///< where the right column starts
 
 /// The figure's x axes and y axes.
@@ -229,9 +229,10 @@ void draw_local_map(Canvas& canvas) {
 }  // namespace
 
 Figure draw_conventions() {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas(kSheetWidth, kSheetHeight);
   draw_title(canvas, "Conventions: frames, angles, rasters");
-  canvas.line({{kRight - 36.0, 130.0}, {kRight - 36.0, kHeight - kMargin}}, {kGrid, 2.0, {}, 0.0});
+  canvas.line({{kRight - 36.0, 130.0}, {kRight - 36.0, kSheetHeight - kMargin}},
+              {kGrid, 2.0, {}, 0.0});
   draw_frames(canvas);
   draw_frames_note(canvas);
   draw_raster(canvas);

@@ -14,7 +14,7 @@ constexpr double kEntryHeight = 66.0;
 constexpr double kSampleWidth = 64.0;
 constexpr double kFurnitureWidth = 420.0;
 constexpr double kFurnitureHeight = 120.0;
-constexpr double kGap = 36.0;
+constexpr double kLegendGap = 36.0;
 constexpr double kSlimmest = 2.2;  ///< a longer map is widened, so that its surroundings show
 
 int columns_in(double width) { return std::max(1, static_cast<int>(width / kEntryWidth)); }
@@ -26,10 +26,11 @@ MapLayout lay_out_tall(const Region& region, std::size_t entries) {
   MapLayout layout;
   layout.view = fit(region, {left, kMargin + kTitleHeight, 1500.0, kMapHeight});
   const Box& map = layout.view.box;
-  layout.furniture = {map.right() + kGap, map.bottom() - kFurnitureHeight, kPanelWidth,
+  layout.furniture = {map.right() + kLegendGap, map.bottom() - kFurnitureHeight, kPanelWidth,
                       kFurnitureHeight};
-  layout.legend = {map.right() + kGap, map.top, kPanelWidth, legend_height(kPanelWidth, entries)};
-  layout.width = static_cast<int>(map.right() + kGap + kPanelWidth + kMargin);
+  layout.legend = {map.right() + kLegendGap, map.top, kPanelWidth,
+                   legend_height(kPanelWidth, entries)};
+  layout.width = static_cast<int>(map.right() + kLegendGap + kPanelWidth + kMargin);
   layout.height = static_cast<int>(map.bottom() + kTickRoom + kMargin);
   return layout;
 }
@@ -41,7 +42,7 @@ MapLayout lay_out_wide(const Region& region, std::size_t entries) {
   layout.view = fit(region, {left, kMargin + kTitleHeight, kMapWidth, 1500.0});
   const Box& map = layout.view.box;
   const double top = map.bottom() + kTickRoom + 28.0;
-  const double legend_width = map.width - kFurnitureWidth - kGap;
+  const double legend_width = map.width - kFurnitureWidth - kLegendGap;
   const double panel = std::max(kFurnitureHeight, legend_height(legend_width, entries));
   layout.legend = {map.left, top, legend_width, panel};
   layout.furniture = {map.right() - kFurnitureWidth, top, kFurnitureWidth, kFurnitureHeight};

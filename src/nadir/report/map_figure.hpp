@@ -13,6 +13,7 @@ namespace nadir::report {
 inline constexpr double kMargin = 44.0;
 inline constexpr double kTitleHeight = 66.0;
 inline constexpr double kTickRoom = 40.0;  ///< below a map, for its tick labels
+inline constexpr double kCaption = 44.0;   ///< above a small picture, for its caption
 
 /// Room left of a map for its tick labels, which may be as long as UTM northings.
 double tick_room(const Region& region);

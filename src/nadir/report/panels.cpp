@@ -12,7 +12,7 @@ namespace {
 
 using namespace report;
 
-constexpr int kWidth = 1640;
+constexpr int kPanelsWidth = 1640;
 constexpr double kPlotHeight = 250.0;
 constexpr double kHeader = 58.0;    ///< above each plot: its label and legend
 constexpr double kAxisRoom = 96.0;  ///< left of the plots: tick labels
@@ -113,12 +113,12 @@ Figure draw_panels(const std::vector<Panel>& panels, const std::string& x_label,
   const double panel_height = kHeader + kPlotHeight;
   const double count = std::max(1.0, static_cast<double>(panels.size()));
   const double top = kMargin + kTitleHeight - 20.0;
-  Canvas canvas(kWidth, static_cast<int>(top + count * panel_height + kBelowAll + 20.0));
+  Canvas canvas(kPanelsWidth, static_cast<int>(top + count * panel_height + kBelowAll + 20.0));
   draw_title(canvas, title);
   const Interval x = x_interval(panels);
   const double x_step = nice_step(x.high - x.low, 12);
   const double left = kMargin + kAxisRoom;
-  const double width = kWidth - left - kMargin - 10.0;
+  const double width = kPanelsWidth - left - kMargin - 10.0;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Box box{left, top + panel_height * static_cast<double>(i), width, panel_height};
     draw_panel(canvas, panels[i], box, x, x_step, i + 1 == panels.size());

@@ -14,13 +14,11 @@ namespace {
 using namespace report;
 
 // Small, so that its text is still read on a phone.
-constexpr double kWidth = 480.0;
-constexpr double kPlotHeight = 120.0;
-constexpr double kHeader = 30.0;     ///< above each plot: its label and legend
-constexpr double kAxisRoom = 48.0;   ///< left of the plots: tick labels
-constexpr double kRightRoom = 14.0;  ///< half a tick label
-constexpr double kBelowAll = 44.0;   ///< below the last plot: tick labels and the x label
-constexpr double kFinest = 0.5;      ///< what lies closer together is drawn as its extent
+constexpr double kSvgPlotHeight = 120.0;
+constexpr double kSvgHeader = 30.0;    ///< above each plot: its label and legend
+constexpr double kSvgAxisRoom = 48.0;  ///< left of the plots: tick labels
+constexpr double kRightRoom = 14.0;    ///< half a tick label
+constexpr double kFinest = 0.5;        ///< what lies closer together is drawn as its extent
 
 std::string point(Position at) { return svg_number(at.x) + " " + svg_number(at.y); }
 
@@ -115,12 +113,13 @@ void draw_panel(SvgSheet& sheet, const Panel& panel, const Box& box, const Inter
                 double x_step, bool last) {
   double y_step = 1.0;
   const Interval y = y_interval(panel, y_step);
-  const Plot plot{{box.left, box.top + kHeader, box.width, box.height - kHeader}, x, y};
+  const Plot plot{{box.left, box.top + kSvgHeader, box.width, box.height - kSvgHeader}, x, y};
   draw_grid(sheet, plot, x_step, y_step, last);
   for (const Band& band : panel.bands) draw_band(sheet, plot, band);
   for (std::size_t i = panel.curves.size(); i-- > 0;) draw_curve(sheet, plot, panel.curves[i], i);
   if (y.empty) sheet.text(plot.box.centre(), "no values", "middle", "muted");
-  const Box header{box.left - kAxisRoom + 6.0, box.top, box.width + kAxisRoom - 6.0, kHeader};
+  const Box header{box.left - kSvgAxisRoom + 6.0, box.top, box.width + kSvgAxisRoom - 6.0,
+                   kSvgHeader};
   sheet.text({header.left, header.bottom() - 9.0}, panel.y_label, "start", "bold");
   draw_keys(sheet, panel, header);
 }
@@ -129,20 +128,20 @@ void draw_panel(SvgSheet& sheet, const Panel& panel, const Box& box, const Inter
 
 std::string svg_panels(const std::vector<Panel>& panels, const std::string& x_label,
                        const std::string& title) {
-  const double panel_height = kHeader + kPlotHeight;
+  const double panel_height = kSvgHeader + kSvgPlotHeight;
   const double height = panel_height * static_cast<double>(std::max<std::size_t>(1, panels.size()));
-  SvgSheet sheet(kWidth, height + kBelowAll, title);
+  SvgSheet sheet(kSvgWidth, height + kSvgBelowAll, title);
   const Interval x = x_interval(panels);
   const double x_step = nice_step(x.high - x.low, 8);
-  const double width = kWidth - kAxisRoom - kRightRoom;
+  const double width = kSvgWidth - kSvgAxisRoom - kRightRoom;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const Box box{kAxisRoom, panel_height * static_cast<double>(i), width, panel_height};
+    const Box box{kSvgAxisRoom, panel_height * static_cast<double>(i), width, panel_height};
     draw_panel(sheet, panels[i], box, x, x_step, i + 1 == panels.size());
   }
   if (panels.empty()) {
-    sheet.text({0.5 * kWidth, 0.5 * height}, "nothing to show", "middle", "muted");
+    sheet.text({0.5 * kSvgWidth, 0.5 * height}, "nothing to show", "middle", "muted");
   }
-  sheet.text({kAxisRoom + 0.5 * width, height + 34.0}, x_label, "middle");
+  sheet.text({kSvgAxisRoom + 0.5 * width, height + 34.0}, x_label, "middle");
   return sheet.finish();
 }
 

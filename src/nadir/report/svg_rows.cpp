@@ -14,13 +14,11 @@ namespace {
 
 using namespace report;
 
-constexpr double kWidth = 480.0;
 constexpr double kTop = 8.0;
 constexpr double kRowHeight = 30.0;
 constexpr double kValueRoom = 66.0;  ///< right of the plot: the numbers
 constexpr double kLeastNameRoom = 60.0;
 constexpr double kMostNameRoom = 190.0;
-constexpr double kBelowAll = 44.0;
 
 std::vector<double> sorted_values(const Sample& sample) {
   std::vector<double> values;
@@ -87,8 +85,8 @@ std::string svg_rows(const std::vector<Sample>& samples, const std::string& x_la
   }
   names = std::min(names, kMostNameRoom);
   const double step = nice_step(x.high > 0.0 ? x.high : 1.0, 5);
-  SvgSheet sheet(kWidth, kTop + count * kRowHeight + kBelowAll, title);
-  const Plot plot{{names, kTop, kWidth - names - kValueRoom, count * kRowHeight},
+  SvgSheet sheet(kSvgWidth, kTop + count * kRowHeight + kSvgBelowAll, title);
+  const Plot plot{{names, kTop, kSvgWidth - names - kValueRoom, count * kRowHeight},
                   {0.0, x.high > 0.0 ? x.high : 1.0, x.empty},
                   {0.0, 1.0, false}};
   draw_axis(sheet, plot, step);
@@ -97,11 +95,11 @@ std::string svg_rows(const std::vector<Sample>& samples, const std::string& x_la
     const double y = kTop + kRowHeight * (static_cast<double>(i) + 0.5);
     sheet.text({names - 8.0, y + 4.0}, samples[i].name, "end");
     if (!values.empty()) draw_box(sheet, plot, values, y, i);
-    sheet.text({kWidth - 4.0, y + 4.0},
+    sheet.text({kSvgWidth - 4.0, y + 4.0},
                values.empty() ? "no value" : three_digits(quantile(values, 0.5)), "end", "bold");
   }
   if (samples.empty()) {
-    sheet.text({0.5 * kWidth, kTop + 0.5 * kRowHeight}, "nothing to show", "middle", "muted");
+    sheet.text({0.5 * kSvgWidth, kTop + 0.5 * kRowHeight}, "nothing to show", "middle", "muted");
   }
   sheet.text({plot.box.centre().x, plot.box.bottom() + 34.0}, x_label, "middle");
   return sheet.finish();

@@ -9,6 +9,9 @@
 
 namespace nadir::report {
 
+inline constexpr double kSvgWidth = 480.0;    ///< of every chart
+inline constexpr double kSvgBelowAll = 44.0;  ///< below the last plot: tick labels and the x label
+
 /// An SVG document being written. Colours are classes: those of the curves are `c0`, `c1`, …; the
 /// style sheet inside has them for light and for dark.
 class SvgSheet {

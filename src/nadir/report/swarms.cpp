@@ -12,8 +12,7 @@ namespace {
 
 using namespace report;
 
-constexpr double kCaption = 44.0;
-constexpr double kGap = 26.0;
+constexpr double kInsetGap = 26.0;
 constexpr double kLegendHeight = 66.0;
 
 /// Where everything of a swarm figure lies.
@@ -48,8 +47,8 @@ std::vector<Box> grid(const Box& area, std::size_t count) {
   double best_side = 0.0;
   for (std::size_t columns = 1; columns <= count; ++columns) {
     const auto rows = static_cast<double>((count + columns - 1) / columns);
-    const double across = (area.width + kGap) / static_cast<double>(columns) - kGap;
-    const double down = (area.height + kGap) / rows - kGap - kCaption;
+    const double across = (area.width + kInsetGap) / static_cast<double>(columns) - kInsetGap;
+    const double down = (area.height + kInsetGap) / rows - kInsetGap - kCaption;
     const double side = std::min(across, down);
     if (side > best_side) {
       best_side = side;
@@ -60,8 +59,8 @@ std::vector<Box> grid(const Box& area, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto column = static_cast<double>(i % best_columns);
     const auto row = static_cast<double>(i / best_columns);
-    boxes.push_back({area.left + column * (best_side + kGap),
-                     area.top + kCaption + row * (best_side + kGap + kCaption), best_side,
+    boxes.push_back({area.left + column * (best_side + kInsetGap),
+                     area.top + kCaption + row * (best_side + kInsetGap + kCaption), best_side,
                      best_side});
   }
   return boxes;
@@ -74,7 +73,7 @@ Layout lay_out_beside(const Region& region, std::size_t count) {
   const double top = kMargin + kTitleHeight;
   layout.overview = fit(region, {kMargin + tick_room(region), top + kCaption, 900.0, kHeight});
   const Box& map = layout.overview.box;
-  const double left = map.right() + 1.6 * kGap;
+  const double left = map.right() + 1.6 * kInsetGap;
   layout.insets = grid({left, top, kInsetsWidth, map.height + kCaption}, count);
   double right = left + 300.0;
   for (const Box& inset : layout.insets) right = std::max(right, inset.right());
@@ -94,7 +93,7 @@ Layout lay_out_above(const Region& region, std::size_t count) {
   const double top = map.bottom() + kTickRoom + 14.0;
   const auto rows = static_cast<double>((count + 3) / 4);
   layout.insets =
-      grid({left, top, map.width, rows * (kInset + kCaption) + (rows - 1.0) * kGap}, count);
+      grid({left, top, map.width, rows * (kInset + kCaption) + (rows - 1.0) * kInsetGap}, count);
   double bottom = top;
   for (const Box& inset : layout.insets) bottom = std::max(bottom, inset.bottom());
   layout.width = static_cast<int>(map.right() + kMargin);

@@ -11,7 +11,6 @@
 namespace nadir::report {
 namespace {
 
-constexpr double kFine = Canvas::kOversampling;
 constexpr double kCapitalHeight = 0.7;       ///< of the text's size
 constexpr double kFontCapitalHeight = 21.0;  ///< of FONT_HERSHEY_SIMPLEX at scale 1
 constexpr double kSmallest = 0.72;           ///< a fitted text shrinks to this before it is cut

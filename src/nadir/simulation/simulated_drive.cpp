@@ -9,6 +9,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/core/random.hpp"
 #include "nadir/simulation/sensing/camera_view.hpp"
+#include "nadir/simulation/sensing/draw_index.hpp"
 #include "nadir/simulation/sensing/lidar_scan.hpp"
 #include "nadir/simulation/sensing/local_truth.hpp"
 #include "nadir/simulation/sensing/tone.hpp"
@@ -16,8 +17,10 @@
 namespace nadir {
 namespace {
 
+using simulation::draw_index;
+
 // Streams of random numbers of a drive.
-enum Stream : std::uint64_t {
+enum DriveStream : std::uint64_t {
   kStamps = 4000,
   kShake,
   kSlip,
@@ -30,8 +33,6 @@ enum Stream : std::uint64_t {
 
 constexpr std::int64_t kStart = 1'748'880'000LL * 1'000'000'000LL;
 constexpr double kRefined = 7.0;  ///< metres from the route that are drawn in finest detail
-
-std::uint64_t index_of(int frame) { return static_cast<std::uint64_t>(frame); }
 
 using MapFromRobot = Transform3<frames::Map, frames::Robot>;
 
@@ -111,7 +112,7 @@ MapFromRobot SimulatedDrive::settled(const SimulatedWorld& world, const Pose2& p
   axes.col(0) = forward;
   axes.col(2) = forward.cross(aside).normalized();
   axes.col(1) = axes.col(2).cross(forward);
-  const auto [pitch, roll] = RandomStream(seed_, kShake).normal_pair(index_of(frame));
+  const auto [pitch, roll] = RandomStream(seed_, kShake).normal_pair(draw_index(frame));
   const double shake = radians(route_options_.shake_deg);
   MapFromRobot settled;
   settled.rotation = Eigen::Quaterniond(axes) *
@@ -145,7 +146,7 @@ void SimulatedDrive::drive(const SimulatedWorld& world, const std::vector<Pose2>
                wrap_angle(a.yaw + share * wrap_angle(b.yaw - a.yaw))};
     poses_.push_back(settled(world, shifted_left(pose, route_options_.lane_offset_m), frame));
     const double seconds = frame * route_options_.step_m / route_options_.speed_m_s +
-                           route_options_.stamp_jitter_s * jitter.uniform(index_of(frame), -1, 1);
+                           route_options_.stamp_jitter_s * jitter.uniform(draw_index(frame), -1, 1);
     stamps_.push_back({kStart + std::llround(seconds * 1e9)});
   }
 }
@@ -165,14 +166,14 @@ void SimulatedDrive::measure_odometry() {
       }();
       const double distance = std::hypot(moved.x, moved.y);
       const double root = std::sqrt(distance);
-      const auto [along, across] = slip.normal_pair(2 * index_of(frame));
-      const double up = slip.normal(2 * index_of(frame) + 1);
+      const auto [along, across] = slip.normal_pair(2 * draw_index(frame));
+      const double up = slip.normal(2 * draw_index(frame) + 1);
       const double scale = 1.0 + route_options_.odometry_scale;
-      const Motion2 noisy{
-          scale * moved.x + route_options_.odometry_noise * root * along,
-          scale * moved.y + route_options_.odometry_noise * root * across,
-          moved.yaw + radians(route_options_.odometry_yaw_deg_per_m) * distance +
-              radians(route_options_.odometry_yaw_noise_deg) * root * turn.normal(index_of(frame))};
+      const Motion2 noisy{scale * moved.x + route_options_.odometry_noise * root * along,
+                          scale * moved.y + route_options_.odometry_noise * root * across,
+                          moved.yaw + radians(route_options_.odometry_yaw_deg_per_m) * distance +
+                              radians(route_options_.odometry_yaw_noise_deg) * root *
+                                  turn.normal(draw_index(frame))};
       at = at * noisy;
       height += pose.translation.z() - map_from_robot(frame - 1).translation.z() +
                 0.5 * route_options_.odometry_noise * root * up;
@@ -222,7 +223,7 @@ Raster<std::uint8_t> SimulatedDrive::camera_image(
     int frame, const simulation::CameraRays& rays,
     const Transform3<frames::Map, frames::Camera>& pose, std::uint64_t stream) const {
   const Raster<float> linear = simulation::view(scene_.scene(), rays, [&](int) { return pose; });
-  const double drift = RandomStream(seed_, kDriveExposures).normal(index_of(frame));
+  const double drift = RandomStream(seed_, kDriveExposures).normal(draw_index(frame));
   simulation::Development development;
   development.gain = Eigen::Vector3f::Constant(static_cast<float>(
       stereo_options_.brightness * std::exp(stereo_options_.exposure_drift * drift)));
@@ -241,8 +242,8 @@ StereoFrame SimulatedDrive::stereo(int frame) const {
   const auto right = left * right_from_left.inverse();
   // Both eyes are cameras of the same make: the same rays from another place.
   const simulation::CameraPose right_eye{right.rotation, right.translation};
-  return {stamp(frame), camera_image(frame, *rays_, left, kLeftNoise + index_of(frame)),
-          camera_image(frame, *rays_, right_eye, kRightNoise + index_of(frame))};
+  return {stamp(frame), camera_image(frame, *rays_, left, kLeftNoise + draw_index(frame)),
+          camera_image(frame, *rays_, right_eye, kRightNoise + draw_index(frame))};
 }
 
 LidarFrame SimulatedDrive::lidar(int frame) const {
@@ -253,10 +254,10 @@ LidarFrame SimulatedDrive::lidar(int frame) const {
   LidarFrame scan;
   scan.stamp = stamp(frame);
   scan.points = simulation::scan(scene_.scene(), sweep, lidar_rig_, lidar_options_, seed_,
-                                 kScanNoise + index_of(frame), movers);
+                                 kScanNoise + draw_index(frame), movers);
   for (const MountedCamera& camera : lidar_rig_.cameras) {
     const auto pose = map_from_robot(frame) * camera.robot_from_camera;
-    scan.images.push_back(camera_image(frame, *rays_, pose, kLeftNoise + index_of(frame)));
+    scan.images.push_back(camera_image(frame, *rays_, pose, kLeftNoise + draw_index(frame)));
   }
   return scan;
 }

@@ -9,13 +9,16 @@
 #include "nadir/core/error.hpp"
 #include "nadir/core/random.hpp"
 #include "nadir/simulation/sensing/camera_view.hpp"
+#include "nadir/simulation/sensing/draw_index.hpp"
 #include "nadir/simulation/sensing/tone.hpp"
 
 namespace nadir {
 namespace {
 
+using simulation::draw_index;
+
 // Streams of random numbers of a flight.
-enum Stream : std::uint64_t {
+enum FlightStream : std::uint64_t {
   kFlightBias = 3000,
   kPositions,
   kAngles,
@@ -27,8 +30,6 @@ enum Stream : std::uint64_t {
 constexpr std::int64_t kTakeOff = 1'747'044'000LL * 1'000'000'000LL;  // 2025-05-12 10:00:00
 constexpr double kTurnSeconds = 6.0;                                  ///< between two strips
 constexpr double kPixelsPerMillimetre = 400.0;
-
-std::uint64_t index_of(int photo) { return static_cast<std::uint64_t>(photo); }
 
 CameraModel camera_of(const FlightOptions& options) {
   CameraModel camera;
@@ -103,8 +104,8 @@ SimulatedFlight::SimulatedFlight(const SimulatedWorld& world, SimulatedScene sce
 PhotoPose SimulatedFlight::truth(int photo) const {
   const Waypoint& waypoint = plan_.waypoints[static_cast<std::size_t>(photo)];
   const RandomStream random(seed_, kTilts);
-  const auto [forward, sideward] = random.normal_pair(2 * index_of(photo));
-  const auto [drift, climb] = random.normal_pair(2 * index_of(photo) + 1);
+  const auto [forward, sideward] = random.normal_pair(2 * draw_index(photo));
+  const auto [drift, climb] = random.normal_pair(2 * draw_index(photo) + 1);
   const double tilt = radians(options_.tilt_deg);
   PhotoPose pose;
   pose.name = "photo_" +
@@ -132,7 +133,7 @@ Eigen::Vector3d SimulatedFlight::velocity(int photo) const {
 
 PhotoMetadata SimulatedFlight::metadata(int photo) const {
   const PhotoPose pose = truth(photo);
-  const std::uint64_t index = index_of(photo);
+  const std::uint64_t index = draw_index(photo);
   const RandomStream positions(seed_, kPositions);
   const RandomStream angles(seed_, kAngles);
   const RandomStream bias(seed_, kFlightBias);
@@ -201,8 +202,8 @@ Photo SimulatedFlight::render(int photo) const {
       },
       &movers);
   const RandomStream random(seed_, kExposures);
-  const auto [exposure, red] = random.normal_pair(2 * index_of(photo));
-  const double blue = random.normal(2 * index_of(photo) + 1);
+  const auto [exposure, red] = random.normal_pair(2 * draw_index(photo));
+  const double blue = random.normal(2 * draw_index(photo) + 1);
   simulation::Development development;
   const double gain = std::exp(options_.exposure_drift * exposure);
   development.gain = {static_cast<float>(gain * std::exp(options_.white_balance_drift * red)),
@@ -212,7 +213,7 @@ Photo SimulatedFlight::render(int photo) const {
   development.blur_px = static_cast<float>(options_.blur_px);
   development.noise_grey = static_cast<float>(options_.noise_grey);
   development.seed = seed_;
-  development.stream = kPhotoNoise + index_of(photo);
+  development.stream = kPhotoNoise + draw_index(photo);
   return {metadata(photo), simulation::develop(linear, development)};
 }
 

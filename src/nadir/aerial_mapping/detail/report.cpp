@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
 #include "nadir/aerial_mapping/flight.hpp"
 #ifdef NADIR_HAS_SFM
 #include <Eigen/Dense>
@@ -18,13 +19,6 @@ namespace nadir::aerial {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 PhotoReport& report_of(const std::string& name, AdjustmentReport& report) {
   const auto found = std::lower_bound(

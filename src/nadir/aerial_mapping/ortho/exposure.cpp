@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
+
 namespace nadir::aerial {
 namespace {
 
@@ -27,12 +29,6 @@ double luminance(const std::array<double, 3>& rgb) {
 bool is_exposed(const cv::Vec3b& rgb) {
   const auto [low, high] = std::minmax({rgb[0], rgb[1], rgb[2]});
   return low >= kDarkest && high <= kBrightest;
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// min sum n_ij (x_i - x_j + d_ij)^2 / s^2 + sum (x_i - e_i)^2 / prior^2

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
+
 namespace nadir::aerial {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr double kScatter = 4.0 * 1.4826;  // robust standard deviations
 constexpr float kUnknown = std::numeric_limits<float>::lowest();
 constexpr float kBeyond = std::numeric_limits<float>::infinity();
 constexpr double kSpan = 4.0;  // longest side of a triangle, in largest distances
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Ground empty_ground(const Extent& extent, double cell_m) {
   Ground ground;
@@ -268,8 +264,7 @@ Ground plane_ground(const std::vector<Eigen::Vector3d>& points, const Extent& ex
     for (const Eigen::Vector3d& p : points)
       residuals.push_back(
           std::abs(p.z() - plane.x() - plane.y() * (p.x() - x0) - plane.z() * (p.y() - y0)));
-    std::vector<double> copy = residuals;
-    const double sigma = std::max(1e-6, 1.5 * median_of(copy));
+    const double sigma = std::max(1e-6, 1.5 * median_of(residuals));
     for (std::size_t k = 0; k < points.size(); ++k)
       weights[k] = 1.0 / (1.0 + residuals[k] * residuals[k] / (sigma * sigma));
   }

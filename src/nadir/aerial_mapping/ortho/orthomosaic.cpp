@@ -7,14 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
 #include "nadir/aerial_mapping/ortho/cells.hpp"
 #include "nadir/aerial_mapping/ortho/exposure.hpp"
 #include "nadir/aerial_mapping/ortho/sweep.hpp"
 #include "nadir/aerial_mapping/ortho/tile.hpp"
+#include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 
 namespace nadir::aerial {
@@ -28,17 +29,9 @@ constexpr double kSharpness = 0.75;  // photo pixels are shrunk to this share of
 constexpr double kLargestHoleM2 = 150.0;
 constexpr double kObliqueRad = 0.17;
 constexpr std::size_t kFewestForSurface = 30;  // points; a plane below that
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 double off_nadir(const View& view) {
   return std::acos(std::clamp(-view.camera_from_map(2, 2), -1.0, 1.0));
-}
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 CellGrid cell_grid(const Extent& extent, double resolution) {
@@ -253,9 +246,9 @@ ViewLimits limits_of(const Block& block, const AerialMappingOptions& options) {
   std::vector<double> tilts;
   for (const View& view : block.views) tilts.push_back(off_nadir(view));
   const double tilt = median_of(tilts);
-  limits.max_off_nadir_rad = options.max_off_nadir_deg * kDegree;
+  limits.max_off_nadir_rad = radians(options.max_off_nadir_deg);
   if (tilt > kObliqueRad)
-    limits.max_off_nadir_rad = std::min(limits.max_off_nadir_rad + tilt, 75.0 * kDegree);
+    limits.max_off_nadir_rad = std::min(limits.max_off_nadir_rad + tilt, radians(75.0));
   return limits;
 }
 

@@ -10,8 +10,8 @@
 namespace nadir::aerial {
 namespace {
 
-constexpr double kEpipolarPx = 2.0;
-constexpr float kRatio = 0.8F;            // against the second best of the strip
+constexpr double kStripHalfPx = 2.0;
+constexpr float kStripRatio = 0.8F;       // against the second best of the strip
 constexpr float kLargestSquared = 0.30F;  // of the distance of two RootSIFT descriptors
 constexpr float kSizeRatio = 1.6F;        // the photos are taken from about the same height
 constexpr int kBinPx = 32;
@@ -102,7 +102,7 @@ std::vector<int> partners(const Model& model, std::size_t photo, std::size_t oth
       const Feature& q = to.points[static_cast<std::size_t>(j)];
       const float ratio = q.size / from.points[i].size;
       if (ratio > kSizeRatio || ratio < 1.0F / kSizeRatio) return;
-      if (strip.distance({static_cast<double>(q.u), static_cast<double>(q.v)}) > kEpipolarPx)
+      if (strip.distance({static_cast<double>(q.u), static_cast<double>(q.v)}) > kStripHalfPx)
         return;
       const float distance =
           squared_distance(from.descriptors, static_cast<int>(i), to.descriptors, j);
@@ -120,11 +120,11 @@ std::vector<int> partners(const Model& model, std::size_t photo, std::size_t oth
         if (std::hypot(q.u - b.u, q.v - b.v) >= 1.5F) second = distance;
       }
     };
-    bins.visit(std::min(strip.from.x(), strip.to.x()) - kEpipolarPx,
-               std::min(strip.from.y(), strip.to.y()) - kEpipolarPx,
-               std::max(strip.from.x(), strip.to.x()) + kEpipolarPx,
-               std::max(strip.from.y(), strip.to.y()) + kEpipolarPx, consider);
-    if (best_index >= 0 && best < kLargestSquared && best < kRatio * kRatio * second)
+    bins.visit(std::min(strip.from.x(), strip.to.x()) - kStripHalfPx,
+               std::min(strip.from.y(), strip.to.y()) - kStripHalfPx,
+               std::max(strip.from.x(), strip.to.x()) + kStripHalfPx,
+               std::max(strip.from.y(), strip.to.y()) + kStripHalfPx, consider);
+    if (best_index >= 0 && best < kLargestSquared && best < kStripRatio * kStripRatio * second)
       partner[i] = best_index;
   }
   return partner;

@@ -7,6 +7,8 @@
 #include <complex>
 #include <numbers>
 
+#include "nadir/aerial_mapping/detail/median.hpp"
+
 namespace nadir::aerial {
 namespace {
 
@@ -15,13 +17,6 @@ using Complex = std::complex<double>;
 constexpr int kMatchesOfPair = 60;  // enough for a similarity, and no pair outweighs another
 constexpr int kReweightings = 8;
 constexpr double kSteep = 0.35;  // a ray flatter than 20 degrees says nothing of the ground
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The camera turned so that its upper edge points north, tilted as its gimbal says.
 Eigen::Matrix3d levelled_rotation(const PhotoPrior& prior) {

@@ -25,7 +25,7 @@ constexpr std::size_t kNeighbours = 8;    // that a new photo moves
 constexpr double kNarrow = 0.15;          // width of a strip in lengths
 constexpr double kNadirSigmaDeg = 10.0;
 constexpr std::size_t kFewestControl = 3;
-constexpr double kObliqueRad = 0.17;  // usual tilt from which a block holds its focal length
+constexpr double kTiltHoldsFocalRad = 0.17;  // usual tilt from which a block holds its focal length
 
 double median_height(const Model& model, double ground) {
   std::vector<double> heights;
@@ -202,7 +202,7 @@ class Reconstructor {
     if (!tilts.empty()) {
       const auto middle = tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2);
       std::nth_element(tilts.begin(), middle, tilts.end());
-      if (*middle > kObliqueRad) return;
+      if (*middle > kTiltHoldsFocalRad) return;
     }
     options_.free_focal = false;
     result_.focal_held = true;

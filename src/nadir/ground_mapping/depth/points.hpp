@@ -14,6 +14,11 @@
 
 namespace nadir::ground {
 
+/// A pixel above this grey level is saturated: it says little about the colour, and weighs so much
+/// less.
+inline constexpr int kSaturated = 250;
+inline constexpr float kSaturatedWeight = 0.2F;
+
 /// One measured point of a surface. Relative to the sensor, so that float suffices wherever the
 /// robot is; along the axes of the odometry frame.
 struct SurfacePoint {

@@ -24,9 +24,6 @@ constexpr int kSubPixels = 16;
 constexpr int kWidthBeyondSearch = 32;
 /// A camera that stands lower, metres, is one whose height nobody gave.
 constexpr double kLowestCamera = 0.1;
-/// A saturated pixel says little about the colour.
-constexpr int kSaturated = 250;
-constexpr float kSaturatedWeight = 0.2F;
 /// A smaller one, pixels, says too little about the depth to check a pose by.
 constexpr double kLeastSightedDisparity = 2.0;
 /// Farther than any ground that a metre-scaled pair can see: the calibration is in millimetres.

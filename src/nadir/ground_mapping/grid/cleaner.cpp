@@ -16,7 +16,7 @@ constexpr int kSectors = 1440;
 /// Frames that must have seen through a cell.
 constexpr int kViolations = 3;
 /// What is seen must lie so far behind the cell, metres: a cell does not testify against itself.
-constexpr double kBehind = 0.3;
+constexpr double kSurelyBehind = 0.3;
 /// How far below the cell's height, beside three standard deviations, metres.
 constexpr double kMargin = 0.05;
 
@@ -91,7 +91,7 @@ int clear_seen_through(const Aggregator& cells, ElevationGrid& grid,
   const Viewpoint viewpoint{sensor_in_odom};
   const Rays rays = gather(cells, grid, viewpoint);
   const double resolution = grid.resolution();
-  const int behind = static_cast<int>(std::ceil(kBehind / resolution));
+  const int behind = static_cast<int>(std::ceil(kSurelyBehind / resolution));
   int cleared = 0;
   for (int sector = 0; sector < kSectors; ++sector) {
     const int farthest = rays.farthest[static_cast<std::size_t>(sector)];

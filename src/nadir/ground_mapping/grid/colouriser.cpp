@@ -15,8 +15,6 @@ namespace {
 
 /// Pixels that a cell must cover before their mean is taken.
 constexpr double kPixelsForMean = 2.0;
-constexpr float kSaturated = 250.0F;
-constexpr float kSaturatedWeight = 0.2F;
 
 }  // namespace
 

@@ -18,18 +18,14 @@ Error key_error(const YAML::Node& node, const path& file, const std::string& pro
   return {ErrorKind::kInput, problem, place_of(node, file), remedy};
 }
 
-std::vector<double> numbers_at(const YAML::Node& map, const std::string& key, std::size_t least,
-                               const path& file) {
+std::vector<double> calibration_numbers(const YAML::Node& map, const std::string& key,
+                                        std::size_t least, const path& file) {
   const YAML::Node list = map[key];
   if (!list || !list.IsSequence() || list.size() < least) {
     throw key_error(map, file, fmt::format("'{}' must be a list of {} numbers", key, least),
                     "give the calibration as its program wrote it");
   }
-  std::vector<double> numbers;
-  for (const YAML::Node& entry : list) {
-    numbers.push_back(number_in_file(entry.Scalar(), key, place_of(list, file)));
-  }
-  return numbers;
+  return numbers_in(list, key, file);
 }
 
 /// pinhole, radial-tangential: the only model that is read; others have another formula.
@@ -47,8 +43,8 @@ void check_models(const YAML::Node& camera, const path& file) {
 CameraModel camera_of(const YAML::Node& camera, const std::string& distortion_key,
                       const path& file) {
   check_models(camera, file);
-  const std::vector<double> k = numbers_at(camera, "intrinsics", 4, file);
-  const std::vector<double> size = numbers_at(camera, "resolution", 2, file);
+  const std::vector<double> k = calibration_numbers(camera, "intrinsics", 4, file);
+  const std::vector<double> size = calibration_numbers(camera, "resolution", 2, file);
   CameraModel model;
   model.width = static_cast<int>(size[0]);
   model.height = static_cast<int>(size[1]);
@@ -57,7 +53,7 @@ CameraModel camera_of(const YAML::Node& camera, const std::string& distortion_ke
   model.cx = k[2];
   model.cy = k[3];
   if (!camera[distortion_key]) return model;
-  std::vector<double> d = numbers_at(camera, distortion_key, 4, file);
+  std::vector<double> d = calibration_numbers(camera, distortion_key, 4, file);
   d.resize(5, 0.0);
   model.k1 = d[0];
   model.k2 = d[1];
@@ -84,7 +80,7 @@ EurocCamera read_euroc_camera(const path& file) {
     throw key_error(root, file, "has no T_BS", "give EuRoC's sensor.yaml");
   }
   camera.body_from_camera = transform_of<frames::PoseSensor, frames::Camera>(
-      numbers_at(root["T_BS"], "data", 16, file), place_of(root["T_BS"], file));
+      calibration_numbers(root["T_BS"], "data", 16, file), place_of(root["T_BS"], file));
   return camera;
 }
 

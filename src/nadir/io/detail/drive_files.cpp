@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <ctime>
 #include <map>
 
@@ -16,14 +15,6 @@ namespace nadir {
 namespace {
 
 using std::filesystem::path;
-
-std::string lower_extension(const path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return extension;
-}
 
 /// What two files of one instant have in common: the digits at the end of their names; all of the
 /// name where there are none.

@@ -4,6 +4,7 @@
 // What every file that uses GDAL needs; nothing of it appears in the public headers.
 
 #include <cpl_error.h>
+#include <cpl_minixml.h>
 #include <gdal_priv.h>
 
 #include <memory>
@@ -51,6 +52,11 @@ struct GdalDatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using GdalDataset = std::unique_ptr<GDALDataset, GdalDatasetCloser>;
+
+struct XmlCloser {
+  void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+};
+using XmlTree = std::unique_ptr<CPLXMLNode, XmlCloser>;
 
 /// The driver of a format ("GTiff", "PNG", "MEM"); registers GDAL's drivers at the first call.
 /// Throws Error (processing) where this GDAL was built without it.

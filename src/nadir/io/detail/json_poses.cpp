@@ -8,12 +8,12 @@
 namespace nadir {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;  ///< its items come in the order of their names
 
-Json parse(const std::filesystem::path& path) {
+SortedJson parsed_json(const std::filesystem::path& path) {
   try {
-    return Json::parse(read_file(path));
-  } catch (const Json::exception& error) {
+    return SortedJson::parse(read_file(path));
+  } catch (const SortedJson::exception& error) {
     throw input_error(path, std::string("is no JSON: ") + error.what());
   }
 }
@@ -23,14 +23,14 @@ template <class Read>
 ImportedPoses checked(const std::filesystem::path& path, Read&& read) {
   try {
     return read();
-  } catch (const Json::exception& error) {
+  } catch (const SortedJson::exception& error) {
     throw input_error(path,
                       std::string("an item is missing or of the wrong kind: ") + error.what());
   }
 }
 
 /// OpenSfM's cameras: lengths in units of the longer side, from the centre of the image.
-CameraModel opensfm_camera(const Json& c, const std::filesystem::path& path) {
+CameraModel opensfm_camera(const SortedJson& c, const std::filesystem::path& path) {
   CameraModel camera;
   const std::string type = c.value("projection_type", "perspective");
   camera.width = c.at("width");
@@ -57,14 +57,15 @@ CameraModel opensfm_camera(const Json& c, const std::filesystem::path& path) {
   return camera;
 }
 
-Eigen::Vector3d vector(const Json& values) {
+Eigen::Vector3d vector(const SortedJson& values) {
   return {values.at(0).get<double>(), values.at(1).get<double>(), values.at(2).get<double>()};
 }
 
-ImportedPoses opensfm_poses(const Json& document, const std::filesystem::path& path) {
-  const auto largest = std::max_element(
-      document.begin(), document.end(),
-      [](const Json& a, const Json& b) { return a.at("shots").size() < b.at("shots").size(); });
+ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::path& path) {
+  const auto largest = std::max_element(document.begin(), document.end(),
+                                        [](const SortedJson& a, const SortedJson& b) {
+                                          return a.at("shots").size() < b.at("shots").size();
+                                        });
   if (largest == document.end() || largest->at("shots").empty()) {
     throw input_error(path, "holds no poses");
   }
@@ -74,8 +75,8 @@ ImportedPoses opensfm_poses(const Json& document, const std::filesystem::path& p
                               " reconstructions; the largest is taken");
   }
   if (largest->contains("reference_lla")) {
-    const Json& lla = largest->at("reference_lla");
-    result.frame = PoseFrame::kTopocentric;
+    const SortedJson& lla = largest->at("reference_lla");
+    result.frame = PhotoPoseFrame::kTopocentric;
     result.reference =
         GeodeticPosition{lla.at("latitude"), lla.at("longitude"), lla.at("altitude")};
   }
@@ -96,23 +97,23 @@ ImportedPoses opensfm_poses(const Json& document, const std::filesystem::path& p
 }  // namespace
 
 ImportedPoses read_opensfm(const std::filesystem::path& path) {
-  const Json document = parse(path);
+  const SortedJson document = parsed_json(path);
   return checked(path, [&] { return opensfm_poses(document, path); });
 }
 
 ImportedPoses read_nadir_poses(const std::filesystem::path& path) {
-  const Json document = parse(path);
+  const SortedJson document = parsed_json(path);
   return checked(path, [&] {
     ImportedPoses result;
-    result.frame = PoseFrame::kMap;
+    result.frame = PhotoPoseFrame::kMap;
     result.crs = document.at("crs");
     std::vector<CameraModel> cameras;
-    for (const Json& c : document.at("cameras")) {
+    for (const SortedJson& c : document.at("cameras")) {
       cameras.push_back({c.at("width"), c.at("height"), c.at("fx"), c.at("fy"), c.at("cx"),
                          c.at("cy"), c.at("k1"), c.at("k2"), c.at("p1"), c.at("p2"), c.at("k3")});
     }
-    for (const Json& photo : document.at("photos")) {
-      const Json& q = photo.at("quaternion");
+    for (const SortedJson& photo : document.at("photos")) {
+      const SortedJson& q = photo.at("quaternion");
       PhotoPose pose{photo.at("name"), cameras.at(photo.at("camera").get<std::size_t>()), {}};
       pose.map_from_camera.rotation =
           Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(),

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "nadir/io/detail/gdal_support.hpp"
 #include "nadir/io/detail/pose_formats.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -13,10 +14,6 @@
 // the image; p1 and p2 the other way round than OpenCV's.
 namespace nadir {
 namespace {
-
-struct XmlCloser {
-  void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
-};
 
 /// Calls `visit` for every element of this name, at any depth.
 template <class Visit>
@@ -91,7 +88,7 @@ struct ChunkTransform {
 
 ImportedPoses read_metashape(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  const std::unique_ptr<CPLXMLNode, XmlCloser> tree(CPLParseXMLString(bytes.c_str()));
+  const XmlTree tree(CPLParseXMLString(bytes.c_str()));
   if (!tree) throw input_error(path, "is no XML");
   std::map<std::string, CameraModel> sensors;
   auto add_sensor = [&](const CPLXMLNode& node) {
@@ -108,7 +105,7 @@ ImportedPoses read_metashape(const std::filesystem::path& path) {
     const auto t = numbers(text(node, "transform.translation"), 3, path, "translation");
     chunk.translation = {t[0], t[1], t[2]};
     chunk.scale = number_in_file(text(node, "transform.scale", "1"), "scale", path.string());
-    result.frame = PoseFrame::kGeocentric;
+    result.frame = PhotoPoseFrame::kGeocentric;
   };
   for_each_element(tree.get(), "chunk", add_chunk);
   auto add_camera = [&](const CPLXMLNode& node) {

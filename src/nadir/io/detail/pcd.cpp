@@ -46,7 +46,7 @@ void take_line(const std::filesystem::path& path, const std::vector<std::string_
   if (key == "DATA" && words.size() > 1) header.data = words[1];
 }
 
-PcdHeader read_header(const std::filesystem::path& path, std::string_view bytes) {
+PcdHeader read_pcd_header(const std::filesystem::path& path, std::string_view bytes) {
   PcdHeader header;
   while (header.data.empty() && header.end < bytes.size()) {
     const std::size_t line_end = bytes.find('\n', header.end);
@@ -133,7 +133,7 @@ std::vector<LidarPoint> compressed_points(const std::filesystem::path& path, std
 }  // namespace
 
 std::vector<LidarPoint> read_pcd(const std::filesystem::path& path, std::string_view bytes) {
-  const PcdHeader header = read_header(path, bytes);
+  const PcdHeader header = read_pcd_header(path, bytes);
   const std::string_view body = bytes.substr(header.end);
   if (header.data == "ascii") return points_of_text(path, body, header.fields, header.points);
   if (header.data == "binary_compressed") return compressed_points(path, body, header);

@@ -23,26 +23,26 @@ struct PlyType {
   char kind;
   std::size_t size;
 };
-constexpr std::array<PlyType, 16> kTypes{{{"char", 'I', 1},
-                                          {"int8", 'I', 1},
-                                          {"uchar", 'U', 1},
-                                          {"uint8", 'U', 1},
-                                          {"short", 'I', 2},
-                                          {"int16", 'I', 2},
-                                          {"ushort", 'U', 2},
-                                          {"uint16", 'U', 2},
-                                          {"int", 'I', 4},
-                                          {"int32", 'I', 4},
-                                          {"uint", 'U', 4},
-                                          {"uint32", 'U', 4},
-                                          {"float", 'F', 4},
-                                          {"float32", 'F', 4},
-                                          {"double", 'F', 8},
-                                          {"float64", 'F', 8}}};
+constexpr std::array<PlyType, 16> kPlyTypes{{{"char", 'I', 1},
+                                             {"int8", 'I', 1},
+                                             {"uchar", 'U', 1},
+                                             {"uint8", 'U', 1},
+                                             {"short", 'I', 2},
+                                             {"int16", 'I', 2},
+                                             {"ushort", 'U', 2},
+                                             {"uint16", 'U', 2},
+                                             {"int", 'I', 4},
+                                             {"int32", 'I', 4},
+                                             {"uint", 'U', 4},
+                                             {"uint32", 'U', 4},
+                                             {"float", 'F', 4},
+                                             {"float32", 'F', 4},
+                                             {"double", 'F', 8},
+                                             {"float64", 'F', 8}}};
 
 CloudField field_of(const std::filesystem::path& path, const std::vector<std::string_view>& words) {
   if (words.size() == 3) {
-    for (const PlyType& type : kTypes) {
+    for (const PlyType& type : kPlyTypes) {
       if (type.name == words[1]) return {std::string(words[2]), type.kind, type.size, 1};
     }
   }
@@ -83,7 +83,7 @@ class PlyHeaderReader {
   bool in_vertices_ = false;
 };
 
-PlyHeader read_header(const std::filesystem::path& path, std::string_view bytes) {
+PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view bytes) {
   PlyHeaderReader reader(path);
   std::size_t begin = 0;
   bool ended = false;
@@ -107,7 +107,7 @@ PlyHeader read_header(const std::filesystem::path& path, std::string_view bytes)
 }  // namespace
 
 std::vector<LidarPoint> read_ply(const std::filesystem::path& path, std::string_view bytes) {
-  const PlyHeader header = read_header(path, bytes);
+  const PlyHeader header = read_ply_header(path, bytes);
   const std::string_view body = bytes.substr(header.end);
   if (header.format == "ascii") return points_of_text(path, body, header.fields, header.points);
   const bool big = header.format == "binary_big_endian";

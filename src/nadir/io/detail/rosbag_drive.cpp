@@ -85,13 +85,13 @@ void take_frames(const std::vector<Pair>& pairs, Drive& drive) {
   }
 }
 
-std::string place_of(const ros1::Bag& bag, const std::string& topic, std::size_t number) {
+std::string place_in_bag(const ros1::Bag& bag, const std::string& topic, std::size_t number) {
   return fmt::format("{}: {}[{}]", bag.file().string(), topic, number);
 }
 
 Raster<std::uint8_t> read_pixels(const ros1::Bag& bag, const std::string& topic,
                                  std::size_t number) {
-  return pixels_of(bag.image(topic, number), place_of(bag, topic, number));
+  return pixels_of(bag.image(topic, number), place_in_bag(bag, topic, number));
 }
 
 /// What is not said about the mounting, tf may know.
@@ -141,7 +141,8 @@ OpenedLayout stereo_of(const BagPointer& bag, const BagTopics& asked, const std:
     const Pair& pair = pairs.at(static_cast<std::size_t>(frame.number));
     StereoFrame stereo{frame.stamp, read_pixels(*bag, left, pair.first),
                        read_pixels(*bag, right, pair.second)};
-    check_pair(stereo, rig, place_of(*bag, left, pair.first), place_of(*bag, right, pair.second));
+    check_pair(stereo, rig, place_in_bag(*bag, left, pair.first),
+               place_in_bag(*bag, right, pair.second));
     return stereo;
   };
   layout.drive.rig = std::move(rig);
@@ -150,7 +151,7 @@ OpenedLayout stereo_of(const BagPointer& bag, const BagTopics& asked, const std:
 
 LidarFrame read_sweep(const ros1::Bag& bag, const LidarTopics& topics, const CameraModel& model,
                       const Pair& pair, std::vector<std::string>& notes) {
-  const std::string sweep = place_of(bag, topics.points, pair.first);
+  const std::string sweep = place_in_bag(bag, topics.points, pair.first);
   PointCloud cloud = points_of(bag.cloud(topics.points, pair.first), sweep);
   if (2 * cloud.invalid > cloud.points.size()) {
     notes.push_back(fmt::format("{}: {} points are NaN, infinite or zero, {} are left", sweep,
@@ -163,7 +164,7 @@ LidarFrame read_sweep(const ros1::Bag& bag, const LidarTopics& topics, const Cam
   throw Error(ErrorKind::kInput,
               fmt::format("is {} x {} pixels, the calibration says {} x {}", image.width(),
                           image.height(), model.width, model.height),
-              place_of(bag, topics.image.name, pair.second),
+              place_in_bag(bag, topics.image.name, pair.second),
               "give the calibration of these images");
 }
 

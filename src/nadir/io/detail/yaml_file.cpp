@@ -58,4 +58,13 @@ std::string text_at(const YAML::Node& map, const std::string& key,
   return {};
 }
 
+std::vector<double> numbers_in(const YAML::Node& list, const std::string& what,
+                               const std::filesystem::path& path) {
+  std::vector<double> numbers;
+  for (const YAML::Node& entry : list) {
+    numbers.push_back(number_in_file(entry.Scalar(), what, place_of(list, path)));
+  }
+  return numbers;
+}
+
 }  // namespace nadir

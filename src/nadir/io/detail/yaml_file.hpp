@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "nadir/core/error.hpp"
 
@@ -28,5 +29,9 @@ void check_keys(const YAML::Node& node, std::span<const std::string> known,
 /// value is a list, a map or nothing.
 std::string text_at(const YAML::Node& map, const std::string& key,
                     const std::filesystem::path& path);
+
+/// The numbers of a list; errors call them `what`. Throws Error (input).
+std::vector<double> numbers_in(const YAML::Node& list, const std::string& what,
+                               const std::filesystem::path& path);
 
 }  // namespace nadir

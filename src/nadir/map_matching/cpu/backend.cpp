@@ -3,8 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <limits>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/cpu/closed_form_surface.hpp"
 #include "nadir/map_matching/cpu/map_cache.hpp"
 #include "nadir/map_matching/cpu/paper_surface.hpp"
@@ -30,7 +30,7 @@ template <class ScorePose>
 std::vector<PoseScore> score_each(const MapIndex& map, std::span<const Pose2> poses,
                                   const ScorePose& score) {
   constexpr std::size_t kGrain = 16;
-  std::vector<PoseScore> scores(poses.size(), {std::numeric_limits<double>::quiet_NaN(), 0.0});
+  std::vector<PoseScore> scores(poses.size(), {kUndefinedScore, 0.0});
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -41,7 +41,7 @@ std::vector<PoseScore> score_each(const MapIndex& map, std::span<const Pose2> po
 }
 
 PoseScore closed_form_score(const MapIndex& map, const cpu::PixelList& pixels, const Pose2& pose) {
-  PoseScore result{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  PoseScore result{kUndefinedScore, 0.0};
   if (pixels.total_seen <= 0.0) return result;
   const PixelCoordinate at = map.channel().geo.pixel_at(pose.x, pose.y);
   const cpu::Sums sums = cpu::sum_at(

@@ -7,16 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/cpu/map_cache.hpp"
 #include "nadir/map_matching/cpu/region.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 
 namespace nadir::cpu {
 namespace {
-
-constexpr float kUndefined = std::numeric_limits<float>::quiet_NaN();
 
 /// Larger windows are worked on in tiles, so that a transform is about this long at most.
 constexpr int kLongestTransform = 2048;
@@ -85,7 +83,7 @@ LocalImages cosine_images(const MatchingOptions& options, const RotatedTemplate&
 /// sum w R P / sqrt(sum R^2 sum P^2)
 float cosine(double map_norm, double local_norm, double product) {
   constexpr double kNothing = 1e-6;  // rounding about zero: one grey value of 1 adds 2.4e-4
-  if (map_norm <= kNothing || local_norm <= kNothing) return kUndefined;
+  if (map_norm <= kNothing || local_norm <= kNothing) return kUndefinedScore;
   return static_cast<float>(product / std::sqrt(map_norm * local_norm));
 }
 
@@ -123,7 +121,7 @@ ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options, c
   const CorrelationWindow part{local.left - region.left, local.top - region.top, window.width,
                                window.height};
 
-  ScoreSurface surface{Raster<float>(window.width, window.height, kUndefined),
+  ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
                        Raster<float>(window.width, window.height)};
   if (options.score == Score::kZncc || options.score == Score::kZwncc) {
     map.correlator.zero_mean(maps, locals, part, local.total_seen, options.min_valid_weight,
@@ -198,7 +196,7 @@ std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
     return tile_surfaces(map, templates, window);
   }
   std::vector<ScoreSurface> surfaces(templates.size(),
-                                     {Raster<float>(window.width, window.height, kUndefined),
+                                     {Raster<float>(window.width, window.height, kUndefinedScore),
                                       Raster<float>(window.width, window.height)});
   for (int top = 0; top < window.height; top += height) {
     for (int left = 0; left < window.width; left += width) {

@@ -9,13 +9,13 @@
 #include <limits>
 #include <map>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/cpu/correlator.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 
 namespace nadir::cpu {
 namespace {
 
-constexpr float kUndefined = std::numeric_limits<float>::quiet_NaN();
 constexpr double kMinGreyVariance = 1.0;  // grey^2
 
 /// Levels that are correlated at a time: bounds the memory.
@@ -66,7 +66,8 @@ WindowMoments window_moments(const Correlator& correlator, const PaperMapSpectra
   const Spectrum* const maps[] = {&map.value, &map.squares, &map.seen};
   const Raster<float>* const locals[] = {&local.mask, &local.seen};
   const Product products[] = {{0, 0}, {1, 0}, {2, 1}};
-  moments.mean = Raster<float>(window.width, window.height, kUndefined);
+  moments.mean =
+      Raster<float>(window.width, window.height, std::numeric_limits<float>::quiet_NaN());
   moments.norm = moments.mean;
   moments.valid_weight = Raster<float>(window.width, window.height);
   correlator.correlate(
@@ -178,7 +179,7 @@ ScoreSurface paper_surface(const Correlator& correlator, const std::map<int, Spe
                            CorrelatorScratch& scratch) {
   const Raster<float> numerator =
       numerator_of(correlator, levels, region, local, window, moments, scratch);
-  ScoreSurface surface{Raster<float>(window.width, window.height, kUndefined),
+  ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
                        moments.valid_weight};
   for (std::size_t i = 0; i < numerator.values().size(); ++i) {
     if (std::isnan(moments.mean.values()[i])) continue;

@@ -4,7 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <limits>
+
+#include "nadir/core/score_volume.hpp"
 
 namespace nadir::cpu {
 namespace {
@@ -50,9 +51,8 @@ std::vector<ScoreSurface> sad_surfaces(const MatchingOptions& options, const Reg
                                        const PixelWindow& window) {
   std::vector<ScoreSurface> surfaces;
   for (const RotatedTemplate& local : templates) {
-    ScoreSurface surface{
-        Raster<float>(window.width, window.height, std::numeric_limits<float>::quiet_NaN()),
-        Raster<float>(window.width, window.height)};
+    ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
+                         Raster<float>(window.width, window.height)};
     tbb::parallel_for(0, window.height, [&](int row) {
       const RowSums sums = sum_row(region, local, window, row);
       for (int column = 0; column < window.width; ++column) {

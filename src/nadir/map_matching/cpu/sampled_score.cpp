@@ -2,8 +2,8 @@
 #include "nadir/map_matching/cpu/sampled_score.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/rotated_template.hpp"
 
 namespace nadir::cpu {
@@ -66,7 +66,7 @@ PoseScore SampledScorer::operator()(const Pose2& map_from_robot) const {
   }
   const double share = total_compared_ > 0.0 ? compared / total_compared_ : 0.0;
   if (share < map_.options().min_valid_weight) {
-    return {std::numeric_limits<double>::quiet_NaN(), share};
+    return {kUndefinedScore, share};
   }
   return {reference::score(map_.options().score, pairs), share};
 }

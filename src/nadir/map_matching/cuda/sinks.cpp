@@ -2,8 +2,9 @@
 #include "nadir/map_matching/cuda/sinks.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
+
+#include "nadir/core/score_volume.hpp"
 
 namespace nadir::cuda {
 namespace {
@@ -36,7 +37,7 @@ DownloadSink::DownloadSink(Device& device, const SurfaceJob& job, const PixelWin
   surfaces.reserve(static_cast<std::size_t>(job.count));
   for (int i = 0; i < job.count; ++i) {
     surfaces.push_back(
-        {Raster<float>(asked.width, asked.height, std::numeric_limits<float>::quiet_NaN()),
+        {Raster<float>(asked.width, asked.height, kUndefinedScore),
          Raster<float>(asked.width, asked.height)});
   }
 }

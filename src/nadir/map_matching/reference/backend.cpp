@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "nadir/core/score_volume.hpp"
 #include "nadir/map_matching/reference/scores.hpp"
 #include "nadir/map_matching/surface.hpp"
 
 namespace nadir {
 namespace {
-
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 /// Pairs of one placement, and how much of the template's weight they are.
 struct Placement {
@@ -20,7 +18,7 @@ struct Placement {
 
 PoseScore score_of(const Placement& placement, const MatchingOptions& options) {
   const double share = placement.seen > 0.0 ? placement.seen_on_map / placement.seen : 0.0;
-  if (share < options.min_valid_weight) return {kUndefined, share};
+  if (share < options.min_valid_weight) return {kUndefinedScore, share};
   return {reference::score(options.score, placement.pairs), share};
 }
 

@@ -2,12 +2,12 @@
 #include "nadir/map_matching/reference/scores.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "nadir/core/score_volume.hpp"
 
 namespace nadir::reference {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMinVariance = 1.0;  // grey^2
 
 /// Sum over all pairs of term(R, P, w).
@@ -36,7 +36,7 @@ double cosine(const PixelPairs& pairs, bool weighted) {
       sum(pairs, [=](double r, double p, double w) { return (weighted ? w : 1.0) * r * p; });
   const double map_norm = sum(pairs, [](double r, double, double) { return r * r; });
   const double local_norm = sum(pairs, [](double, double p, double) { return p * p; });
-  if (map_norm <= 0.0 || local_norm <= 0.0) return kUndefined;
+  if (map_norm <= 0.0 || local_norm <= 0.0) return kUndefinedScore;
   return product / std::sqrt(map_norm * local_norm);
 }
 
@@ -52,7 +52,7 @@ double paper_wncc(const PixelPairs& pairs) {
       sum(pairs, [=](double r, double, double) { return (r - map_mean) * (r - map_mean); });
   const double local_norm =
       sum(pairs, [=](double, double p, double) { return (p - local_mean) * (p - local_mean); });
-  if (map_norm < kMinVariance * count || local_norm < kMinVariance * count) return kUndefined;
+  if (map_norm < kMinVariance * count || local_norm < kMinVariance * count) return kUndefinedScore;
   return product / std::sqrt(map_norm * local_norm);
 }
 
@@ -73,7 +73,7 @@ double zero_mean_ncc(const PixelPairs& pairs, bool weighted) {
     return w_of(w) * (p - local_mean) * (p - local_mean);
   });
   if (!(total > 0.0) || map_norm < kMinVariance * total || local_norm < kMinVariance * total) {
-    return kUndefined;
+    return kUndefinedScore;
   }
   return product / std::sqrt(map_norm * local_norm);
 }
@@ -81,7 +81,7 @@ double zero_mean_ncc(const PixelPairs& pairs, bool weighted) {
 }  // namespace
 
 double score(Score score, const PixelPairs& pairs) {
-  if (pairs.map.empty()) return kUndefined;
+  if (pairs.map.empty()) return kUndefinedScore;
   switch (score) {
     case Score::kSsd:
       return -mean_squared_difference(pairs);
@@ -98,7 +98,7 @@ double score(Score score, const PixelPairs& pairs) {
     case Score::kZwncc:
       return zero_mean_ncc(pairs, true);
   }
-  return kUndefined;
+  return kUndefinedScore;
 }
 
 }  // namespace nadir::reference

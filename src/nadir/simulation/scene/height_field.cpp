@@ -9,7 +9,7 @@
 namespace nadir::simulation {
 namespace {
 
-constexpr int kBlock = 8;            ///< nodes a side
+constexpr int kBlockNodes = 8;       ///< nodes a side
 constexpr double kTolerance = 1e-4;  ///< metres of height
 
 int clamped(double index, int count) {
@@ -22,16 +22,17 @@ HeightField::HeightField(Raster<float> nodes, Eigen::Vector2d low, double spacin
     : nodes_(std::move(nodes)), low_(std::move(low)), spacing_(spacing) {
   const int width = nodes_.width();
   const int height = nodes_.height();
-  blocks_ = Raster<Block>((width + kBlock - 1) / kBlock, (height + kBlock - 1) / kBlock);
+  blocks_ = Raster<Block>((width + kBlockNodes - 1) / kBlockNodes,
+                          (height + kBlockNodes - 1) / kBlockNodes);
   for (int row = 0; row < blocks_.height(); ++row) {
     for (int column = 0; column < blocks_.width(); ++column) {
       Block block{std::numeric_limits<float>::lowest(), 0.0F};
       float steepest = 0.0F;
       // One node more on every side: a bilinear patch reaches over the border of its block.
-      for (int r = std::max(row * kBlock - 1, 0); r <= std::min((row + 1) * kBlock, height - 1);
-           ++r) {
-        for (int c = std::max(column * kBlock - 1, 0);
-             c <= std::min((column + 1) * kBlock, width - 1); ++c) {
+      for (int r = std::max(row * kBlockNodes - 1, 0);
+           r <= std::min((row + 1) * kBlockNodes, height - 1); ++r) {
+        for (int c = std::max(column * kBlockNodes - 1, 0);
+             c <= std::min((column + 1) * kBlockNodes, width - 1); ++c) {
           const float here = nodes_.at(c, r);
           block.top = std::max(block.top, here);
           if (c + 1 < width) steepest = std::max(steepest, std::abs(nodes_.at(c + 1, r) - here));
@@ -69,7 +70,7 @@ Eigen::Vector3d HeightField::normal(double x, double y) const {
 }
 
 double HeightField::top(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const {
-  const double size = spacing_ * kBlock;
+  const double size = spacing_ * kBlockNodes;
   double top = std::numeric_limits<double>::lowest();
   const int last_column = clamped((high.x() - low_.x()) / size, blocks_.width());
   const int last_row = clamped((high.y() - low_.y()) / size, blocks_.height());
@@ -110,7 +111,7 @@ double HeightField::refine(const Eigen::Vector3d& origin, const Eigen::Vector3d&
 double HeightField::meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                          double from, double to) const {
   const double run = std::hypot(direction.x(), direction.y());
-  const double size = spacing_ * kBlock;
+  const double size = spacing_ * kBlockNodes;
   const double least = 0.2 * spacing_ / (run + std::abs(direction.z()));
   const auto exit_of = [&](double position, double speed, int block, double low) {
     if (std::abs(speed) < 1e-12) return std::numeric_limits<double>::infinity();

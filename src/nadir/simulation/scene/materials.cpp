@@ -10,7 +10,7 @@ namespace {
 
 using Rgb = Eigen::Vector3f;
 
-enum Layer : std::uint32_t {
+enum MaterialLayer : std::uint32_t {
   kDirt = 800,
   kBricks,
   kPanes,

@@ -8,7 +8,7 @@
 namespace nadir::simulation {
 namespace {
 
-enum Layer : std::uint32_t { kFray = 700, kFrayFine };
+enum FrayLayer : std::uint32_t { kFray = 700, kFrayFine };
 
 /// Whether leaves stop a ray at this place of a puff's skin: the skin is frayed, more so where it
 /// is seen edge on.

@@ -16,7 +16,7 @@
 namespace nadir::simulation {
 namespace {
 
-constexpr int kBlock = 32;  ///< texels a side that share one list of what is near
+constexpr int kBlockTexels = 32;  ///< texels a side that share one list of what is near
 
 /// Draws heights and colours of the whole extent, block by block.
 void draw_ground(Terrain& terrain) {
@@ -26,15 +26,16 @@ void draw_ground(Terrain& terrain) {
   const int height = static_cast<int>(std::ceil(size.y() / texel));
   Raster<float> nodes(width, height);
   terrain.albedo = Raster<std::uint8_t>(width, height, 0, 4);
-  const int block_rows = (height + kBlock - 1) / kBlock;
+  const int block_rows = (height + kBlockTexels - 1) / kBlockTexels;
   tbb::parallel_for(0, block_rows, [&](int block_row) {
-    for (int left = 0; left < width; left += kBlock) {
-      const int top = block_row * kBlock;
+    for (int left = 0; left < width; left += kBlockTexels) {
+      const int top = block_row * kBlockTexels;
       const Eigen::Vector2d middle =
-          terrain.extent.low + texel * Eigen::Vector2d(left + 0.5 * kBlock, top + 0.5 * kBlock);
-      const Nearby nearby = terrain.model->near(middle, 0.75 * kBlock * texel);
-      for (int row = top; row < std::min(top + kBlock, height); ++row) {
-        for (int column = left; column < std::min(left + kBlock, width); ++column) {
+          terrain.extent.low +
+          texel * Eigen::Vector2d(left + 0.5 * kBlockTexels, top + 0.5 * kBlockTexels);
+      const Nearby nearby = terrain.model->near(middle, 0.75 * kBlockTexels * texel);
+      for (int row = top; row < std::min(top + kBlockTexels, height); ++row) {
+        for (int column = left; column < std::min(left + kBlockTexels, width); ++column) {
           const Eigen::Vector2d point =
               terrain.extent.low + texel * Eigen::Vector2d(column + 0.5, row + 0.5);
           const GroundSpot spot = GroundModel::locate(point, static_cast<float>(texel), nearby);
