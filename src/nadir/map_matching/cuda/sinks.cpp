@@ -36,9 +36,8 @@ DownloadSink::DownloadSink(Device& device, const SurfaceJob& job, const PixelWin
   // One by one: a copy of a surface costs as much as the GPU takes to compute it.
   surfaces.reserve(static_cast<std::size_t>(job.count));
   for (int i = 0; i < job.count; ++i) {
-    surfaces.push_back(
-        {Raster<float>(asked.width, asked.height, kUndefinedScore),
-         Raster<float>(asked.width, asked.height)});
+    surfaces.push_back({Raster<float>(asked.width, asked.height, kUndefinedScore),
+                        Raster<float>(asked.width, asked.height)});
   }
 }
 
