@@ -231,9 +231,9 @@ TEST(GroundOnKittiPoses, OfARobotThatStandsInTrafficAreNotDoubted) {
   std::string rows;
   for (int i = 0; i < 15; ++i) rows += "1 0 0 0 0 1 0 0 0 0 1 0\n";
   write_file_as(standing, rows);
-  const Json document =
-      json_of({"ground", drive->string(), "-o", (scratch_folder() / "queue").string(), "--poses",
-               standing.string(), "--pose-frame", "robot"});
+  const OrderedJson document =
+      ordered_json_of({"ground", drive->string(), "-o", (scratch_folder() / "queue").string(),
+                       "--poses", standing.string(), "--pose-frame", "robot"});
   expect_no_doubt_of_poses(document);
 }
 

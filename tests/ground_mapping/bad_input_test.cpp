@@ -13,32 +13,30 @@
 namespace nadir::test {
 namespace {
 
-StereoRig rig() { return make_rig(1.2, radians(15.0), 320, 160, 300.0, 0.3); }
-
 void expect_rig_error(const StereoRig& bad, std::initializer_list<std::string> parts) {
   expect_error(ErrorKind::kInput, parts, [&] { const GroundMapper mapper(bad, {}); });
 }
 
 TEST(BadInput, RigsThatCannotBe) {
-  StereoRig bad = rig();
+  StereoRig bad = small_rig();
   bad.right_from_left.translation.setZero();
   expect_rig_error(bad, {"baseline is 0", "calibration of the pair"});
-  bad = rig();
+  bad = small_rig();
   bad.right_from_left.translation.x() = 0.3;
   expect_rig_error(bad, {"baseline is negative", "swap left and right"});
-  bad = rig();
+  bad = small_rig();
   bad.right_from_left.translation.x() = -540.0;
   expect_rig_error(bad, {"baseline is 540 m", "millimetres"});
-  bad = rig();
+  bad = small_rig();
   bad.right_from_left.translation = {0.0, -0.3, 0.0};
   expect_rig_error(bad, {"one above or behind the other"});
-  bad = rig();
+  bad = small_rig();
   bad.left.fx = 0.0;
   expect_rig_error(bad, {"left camera", "focal lengths 0", "above 0"});
-  bad = rig();
+  bad = small_rig();
   bad.right.width = 300;
   expect_rig_error(bad, {"320 x 160", "300 x 160", "one size"});
-  bad = rig();
+  bad = small_rig();
   bad.robot_from_left.translation.x() = std::numeric_limits<double>::quiet_NaN();
   expect_rig_error(bad, {"not finite", "calibration"});
 }
@@ -47,7 +45,8 @@ TEST(BadInput, OptionsThatContradict) {
   const auto refused = [](auto change, std::initializer_list<std::string> parts) {
     GroundMappingOptions options;
     change(options);
-    expect_error(ErrorKind::kUsage, parts, [&] { const GroundMapper mapper(rig(), options); });
+    expect_error(ErrorKind::kUsage, parts,
+                 [&] { const GroundMapper mapper(small_rig(), options); });
   };
   refused([](auto& o) { o.grid_cells = 300; }, {"grid_cells = 300", "power of two"});
   refused([](auto& o) { o.block_size = 4; }, {"block_size = 4", "odd"});
@@ -59,8 +58,8 @@ TEST(BadInput, OptionsThatContradict) {
 }
 
 TEST(BadInput, FramesThatCannotBe) {
-  GroundMapper mapper(rig(), {});
-  const StereoFrame good = photograph({}, rig(), {}, Stamp{5});
+  GroundMapper mapper(small_rig(), {});
+  const StereoFrame good = photograph({}, small_rig(), {}, Stamp{5});
   StereoFrame bad = good;
   bad.right = Raster<std::uint8_t>(319, 160);
   expect_error(ErrorKind::kInput, {"right image has 319 x 160", "calibration says 320 x 160"},
@@ -90,13 +89,13 @@ TEST(BadInput, DepthInMillimetres) {
   frame.points.assign(1000, LidarPoint{3000.0F, 100.0F, -1200.0F});
   expect_error(ErrorKind::kInput, {"median lidar range is 3233 m", "millimetres"},
                [&] { mapper.integrate(frame, {}); });
-  StereoRig far = rig();
+  StereoRig far = small_rig();
   far.right_from_left.translation.x() = -15.0;  // a pair in decimetres or worse
   GroundMappingOptions options;
   options.check_stereo_order = false;
   options.max_range_m = 1e3;  // allowed to a caller; the option's range holds for files
   GroundMapper stereo(far, options);
-  const StereoFrame images = photograph({}, rig(), {}, Stamp{0});
+  const StereoFrame images = photograph({}, small_rig(), {}, Stamp{0});
   expect_error(ErrorKind::kInput, {"median stereo depth", "metres"},
                [&] { stereo.integrate(images, {}); });
 }
@@ -111,9 +110,9 @@ TEST(BadInput, MoreOrFewerImagesThanCameras) {
 TEST(BadInput, LocalMapsThatTheGridCannotHold) {
   GroundMappingOptions options;
   options.grid_cells = 128;
-  GroundMapper mapper(rig(), options);
+  GroundMapper mapper(small_rig(), options);
   expect_error(ErrorKind::kUsage, {"before the first frame"}, [&] { (void)mapper.render({}); });
-  mapper.integrate(photograph({}, rig(), {}, Stamp{0}), {});
+  mapper.integrate(photograph({}, small_rig(), {}, Stamp{0}), {});
   expect_error(ErrorKind::kUsage, {"18 x 18 m", "grid of 12.8 m", "grid_cells"},
                [&] { (void)mapper.render({}); });
 }

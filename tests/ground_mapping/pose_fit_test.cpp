@@ -25,8 +25,6 @@ Scene street() {
   return scene;
 }
 
-StereoRig rig() { return make_rig(1.2, radians(15.0), 320, 160, 300.0, 0.3); }
-
 Stamp stamp_of(int frame) { return Stamp{100'000'000LL * frame}; }
 
 /// A bend to the left.
@@ -40,9 +38,9 @@ OdomPose3 parked(int /*frame*/) { return pose_at(1.0, 0.5, 0.1); }
 
 PoseFit fit_of(const PoseOf& true_pose, const PoseOf& claimed, int frames,
                const GroundMappingOptions& options = {}) {
-  GroundMapper mapper(rig(), options);
+  GroundMapper mapper(small_rig(), options);
   for (int i = 0; i < frames; ++i) {
-    mapper.integrate(photograph(street(), rig(), true_pose(i), stamp_of(i)), claimed(i));
+    mapper.integrate(photograph(street(), small_rig(), true_pose(i), stamp_of(i)), claimed(i));
   }
   return mapper.pose_fit();
 }
@@ -82,7 +80,7 @@ TEST(PosesThatFit, OfARobotThatStandsAreNotJudged) {
 }
 
 TEST(PosesThatFit, OfImagesWithoutTextureAreNotJudged) {
-  GroundMapper mapper(rig(), {});
+  GroundMapper mapper(small_rig(), {});
   for (int i = 0; i < 8; ++i) {
     const Raster<std::uint8_t> plain(320, 160, 90);
     mapper.integrate(StereoFrame{stamp_of(i), plain, plain}, driven(i));

@@ -107,6 +107,8 @@ StereoRig make_rig(double height, double pitch_rad, int width, int image_height,
   return rig;
 }
 
+StereoRig small_rig() { return make_rig(1.2, radians(15.0), 320, 160, 300.0, 0.3); }
+
 Raster<std::uint8_t> photograph(const Scene& scene, const CameraModel& camera,
                                 const Transform3<frames::Odom, frames::Camera>& odom_from_camera) {
   Raster<std::uint8_t> image(camera.width, camera.height);

@@ -39,6 +39,9 @@ struct Scene {
 StereoRig make_rig(double height, double pitch_rad, int width, int image_height, double focal,
                    double baseline);
 
+/// Small images, quick to match.
+StereoRig small_rig();
+
 /// The image of the scene that a camera sees, four rays a pixel; the sky is 200.
 Raster<std::uint8_t> photograph(const Scene& scene, const CameraModel& camera,
                                 const Transform3<frames::Odom, frames::Camera>& odom_from_camera);
