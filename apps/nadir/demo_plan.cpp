@@ -22,10 +22,10 @@ struct Extent {
 
 Extent whole() { return {30, 60, {}}; }
 
-/// A smaller campus and smaller photos.
+/// A smaller campus, and smaller images.
 Extent quick_one() {
   return {8,
-          32,
+          26,
           {"--set", "simulation.width_m=90", "--set", "simulation.depth_m=70", "--set",
            "simulation.flight_image_width=1000", "--set", "simulation.flight_image_height=750",
            "--set", "simulation.flight_focal_px=780"}};
