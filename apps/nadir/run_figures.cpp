@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_figures.hpp"
 
+#include <tbb/parallel_for.h>
+
+#include <functional>
+
 #include "nadir/io/image.hpp"
 
 namespace nadir::cli {
@@ -62,19 +66,30 @@ std::vector<std::string> draw_run(const std::filesystem::path& folder, const Run
   std::vector<Track> tracks{{"estimate", figures.result.trajectory()}};
   if (!figures.truth.empty()) tracks.push_back({"truth", figures.truth});
   if (!figures.odometry.empty()) tracks.push_back({"odometry alone", figures.odometry});
-  std::vector<std::string> names{"trajectory.png", "swarm.png", "comparison.png", "coverage.png",
-                                 "diagnostics.png"};
-  write_png(folder / names[0], draw_trajectories(figures.map, tracks, figures.title));
-  write_png(folder / names[1], draw_swarms(figures.map, figures.result.swarms, figures.title));
-  write_png(folder / names[2],
-            draw_comparisons(figures.map, comparisons_of(figures.result), figures.title));
-  write_png(folder / names[3],
-            draw_coverage(figures.map, figures.result.local_maps, figures.title));
-  write_png(folder / names[4], diagnostics(figures));
+  struct Picture {
+    std::string name;
+    std::function<Figure()> draw;
+  };
+  std::vector<Picture> pictures{
+      {"trajectory.png", [&] { return draw_trajectories(figures.map, tracks, figures.title); }},
+      {"swarm.png",
+       [&] { return draw_swarms(figures.map, figures.result.swarms, figures.title); }},
+      {"comparison.png",
+       [&] {
+         return draw_comparisons(figures.map, comparisons_of(figures.result), figures.title);
+       }},
+      {"coverage.png",
+       [&] { return draw_coverage(figures.map, figures.result.local_maps, figures.title); }},
+      {"diagnostics.png", [&] { return diagnostics(figures); }},
+  };
   if (figures.evaluation != nullptr) {
-    names.emplace_back("error.png");
-    write_png(folder / names.back(), errors(figures));
+    pictures.push_back({"error.png", [&] { return errors(figures); }});
   }
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
+    write_png(folder / pictures[k].name, pictures[k].draw());
+  });
+  std::vector<std::string> names;
+  for (const Picture& picture : pictures) names.push_back(picture.name);
   return names;
 }
 
