@@ -24,13 +24,13 @@ Extent whole() { return {30, 60, {}}; }
 
 /// A smaller campus, and smaller images.
 Extent quick_one() {
-  return {8,
-          24,
-          {"--set", "simulation.width_m=90", "--set", "simulation.depth_m=70", "--set",
-           "simulation.flight_image_width=1000", "--set", "simulation.flight_image_height=750",
-           "--set", "simulation.flight_focal_px=780", "--set", "simulation.stereo_image_width=480",
-           "--set", "simulation.stereo_image_height=360", "--set",
-           "simulation.stereo_focal_px=285"}};
+  return {
+      8,
+      24,
+      {"--set", "simulation.width_m=90", "--set", "simulation.depth_m=70", "--set",
+       "simulation.flight_image_width=1000", "--set", "simulation.flight_image_height=750", "--set",
+       "simulation.flight_focal_px=780", "--set", "simulation.stereo_image_width=480", "--set",
+       "simulation.stereo_image_height=360", "--set", "simulation.stereo_focal_px=285"}};
 }
 
 std::vector<std::string> simulate(const std::string& out, const Extent& extent,

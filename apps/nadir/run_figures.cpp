@@ -72,8 +72,7 @@ std::vector<std::string> draw_run(const std::filesystem::path& folder, const Run
   };
   std::vector<Picture> pictures{
       {"trajectory.png", [&] { return draw_trajectories(figures.map, tracks, figures.title); }},
-      {"swarm.png",
-       [&] { return draw_swarms(figures.map, figures.result.swarms, figures.title); }},
+      {"swarm.png", [&] { return draw_swarms(figures.map, figures.result.swarms, figures.title); }},
       {"comparison.png",
        [&] {
          return draw_comparisons(figures.map, comparisons_of(figures.result), figures.title);

@@ -92,9 +92,9 @@ void write_png(const std::filesystem::path& path, const Raster<std::uint8_t>& im
   try {
     // Noisy pictures hold no runs that a longer search would find: a third of the time of level 6,
     // and no larger.
-    cv::imencode(".png", ordered, encoded,
-                 {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
-                  cv::IMWRITE_PNG_STRATEGY_RLE});
+    cv::imencode(
+        ".png", ordered, encoded,
+        {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE});
   } catch (const cv::Exception& exception) {
     throw Error(ErrorKind::kProcessing, "cannot be encoded: " + exception.err, path.string());
   }

@@ -16,6 +16,11 @@ constexpr int kCoarsePlaces = 192;
 /// the best of one at half the resolution need not be its best.
 constexpr int kFinePlaces = 48;
 constexpr int kClimbedPlaces = 16;
+/// Of the climbed ones, the surroundings are searched once more: along a road scores form a ridge,
+/// whose highest point need not stand out from it at a quarter of the resolution.
+constexpr int kRidges = 3;
+constexpr int kRidgePlaces = 16;  ///< of each
+constexpr int kClimbedRidgePlaces = 4;
 
 /// The best of `places`, best first, no two of which are closer than both limits.
 std::vector<MatchCandidate> best_places(std::vector<MatchCandidate> places, std::size_t count,
@@ -44,10 +49,14 @@ struct Grid {
   double yaw_step = 0.0;
 };
 
-/// Every place moved to the best exact score of the grid around it; places without any are dropped.
-std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& local,
-                                        const std::vector<MatchCandidate>& places,
-                                        const Grid& grid) {
+/// Poses and their exact scores, those of one place in a row, all in the same order.
+struct ScoredPoses {
+  std::vector<MatchCandidate> candidates;
+  std::size_t per_place = 1;
+};
+
+ScoredPoses score_around(const MapIndex& map, const Template& local,
+                         const std::vector<MatchCandidate>& places, const Grid& grid) {
   std::vector<Pose2> poses;
   for (const MatchCandidate& place : places) {
     for (int k = -grid.headings; k <= grid.headings; ++k) {
@@ -61,17 +70,58 @@ std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& loc
     }
   }
   const std::vector<PoseScore> scores = backend_of(map.options()).score_poses(map, local, poses);
-  const std::size_t per_place = places.empty() ? 1 : poses.size() / places.size();
+  ScoredPoses scored;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    scored.candidates.push_back({poses[i], scores[i].score, scores[i].valid_weight});
+  }
+  if (!places.empty()) scored.per_place = poses.size() / places.size();
+  return scored;
+}
+
+/// Every place moved to the best exact score of the grid around it; places without any are dropped.
+std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& local,
+                                        const std::vector<MatchCandidate>& places,
+                                        const Grid& grid) {
+  const ScoredPoses scored = score_around(map, local, places, grid);
   std::vector<MatchCandidate> best;
-  for (std::size_t begin = 0; begin < poses.size(); begin += per_place) {
-    std::size_t top = begin;
-    for (std::size_t i = begin; i < begin + per_place; ++i) {
-      if (scores[i].score > scores[top].score || std::isnan(scores[top].score)) top = i;
+  for (std::size_t begin = 0; begin < scored.candidates.size(); begin += scored.per_place) {
+    const MatchCandidate* top = &scored.candidates[begin];
+    for (std::size_t i = begin; i < begin + scored.per_place; ++i) {
+      const MatchCandidate& candidate = scored.candidates[i];
+      if (candidate.score > top->score || std::isnan(top->score)) top = &candidate;
     }
-    if (std::isnan(scores[top].score)) continue;
-    best.push_back({poses[top], scores[top].score, scores[top].valid_weight});
+    if (!std::isnan(top->score)) best.push_back(*top);
   }
   return best;
+}
+
+/// The highest places of the ridges that the first `kRidges` places lie on, those themselves not
+/// among them. Poses within 2 m (of maps of 10 cm a pixel) and one step in heading are looked at.
+std::vector<MatchCandidate> along_ridges(const MapIndex& map, const Template& local,
+                                         const MapIndex& half_map, const Template& half,
+                                         const std::vector<MatchCandidate>& places,
+                                         double yaw_step) {
+  const double resolution = map.channel().geo.resolution;
+  const int turns = yaw_step > 0.0 ? 1 : 0;
+  std::vector<MatchCandidate> found;
+  for (std::size_t k = 0; k < std::min<std::size_t>(kRidges, places.size()); ++k) {
+    std::vector<MatchCandidate> ridge = score_around(half_map, half, {places[k]},
+                                                     {.positions = 10,
+                                                      .step = 2.0 * resolution,
+                                                      .headings = 3 * turns,
+                                                      .yaw_step = yaw_step / 3.0})
+                                            .candidates;
+    std::erase_if(ridge, [](const MatchCandidate& pose) { return std::isnan(pose.score); });
+    ridge = best_places(std::move(ridge), kRidgePlaces, 4.0 * resolution, 0.5 * yaw_step);
+    ridge = best_around(
+        map, local, ridge,
+        {.positions = 2, .step = resolution, .headings = 2 * turns, .yaw_step = yaw_step / 6.0});
+    ridge = best_places(std::move(ridge), kClimbedRidgePlaces, 2.0 * resolution, 0.2 * yaw_step);
+    for (const MatchCandidate& place : ridge) {
+      found.push_back(climb(map, local, place, turns > 0));
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -121,6 +171,10 @@ std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& l
   const auto climbed = static_cast<std::size_t>(std::max(kClimbedPlaces, map.options().candidates));
   places = best_places(std::move(places), climbed, 2.0 * resolution, 0.2 * yaw_step);
   for (MatchCandidate& place : places) place = climb(map, local, place, turns > 0);
+  places = best_places(std::move(places), climbed, map.options().peak_separation_m, kPi);
+  const std::vector<MatchCandidate> higher =
+      along_ridges(map, local, half_map, half, places, yaw_step);
+  places.insert(places.end(), higher.begin(), higher.end());
   return best_places(std::move(places), static_cast<std::size_t>(map.options().candidates),
                      map.options().peak_separation_m, kPi);
 }
