@@ -61,5 +61,18 @@ TEST_F(AerogroundTest, FindsSingleFramesInTheWholeMap) {
   }
 }
 
+// The scores of frame 195 form a ridge along the road, which is hardly there at a quarter of the
+// resolution.
+TEST_F(AerogroundTest, ACoarseSearchFindsTheHighestPointOfARidge) {
+  std::vector<double> scores;
+  for (const std::string search : {"full", "coarse_to_fine"}) {
+    const Json document =
+        json_of({"match", site_.string(), "--frame", "195", "--yaw-range-deg", "180", "--set",
+                 "map_matching.search=" + search, "-o", (scratch_folder() / search).string()});
+    scores.push_back(document["matches"][0]["candidates"][0]["score"]);
+  }
+  EXPECT_GE(scores[1], scores[0] - 1e-3);
+}
+
 }  // namespace
 }  // namespace nadir::testing

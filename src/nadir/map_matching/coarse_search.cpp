@@ -19,7 +19,8 @@ constexpr int kClimbedPlaces = 16;
 /// Of the climbed ones, the surroundings are searched once more: along a road scores form a ridge,
 /// whose highest point need not stand out from it at a quarter of the resolution.
 constexpr int kRidges = 3;
-constexpr int kRidgePlaces = 16;  ///< of each
+constexpr int kRidgeReach = 10;   ///< pixels of half the resolution to each side
+constexpr int kRidgePlaces = 16;  ///< of each, at full resolution
 constexpr int kClimbedRidgePlaces = 4;
 
 /// The best of `places`, best first, no two of which are closer than both limits.
@@ -49,14 +50,10 @@ struct Grid {
   double yaw_step = 0.0;
 };
 
-/// Poses and their exact scores, those of one place in a row, all in the same order.
-struct ScoredPoses {
-  std::vector<MatchCandidate> candidates;
-  std::size_t per_place = 1;
-};
-
-ScoredPoses score_around(const MapIndex& map, const Template& local,
-                         const std::vector<MatchCandidate>& places, const Grid& grid) {
+/// The poses of the grids around `places` with their exact scores, grid after grid.
+std::vector<MatchCandidate> score_around(const MapIndex& map, const Template& local,
+                                         const std::vector<MatchCandidate>& places,
+                                         const Grid& grid) {
   std::vector<Pose2> poses;
   for (const MatchCandidate& place : places) {
     for (int k = -grid.headings; k <= grid.headings; ++k) {
@@ -70,11 +67,10 @@ ScoredPoses score_around(const MapIndex& map, const Template& local,
     }
   }
   const std::vector<PoseScore> scores = backend_of(map.options()).score_poses(map, local, poses);
-  ScoredPoses scored;
+  std::vector<MatchCandidate> scored;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    scored.candidates.push_back({poses[i], scores[i].score, scores[i].valid_weight});
+    scored.push_back({poses[i], scores[i].score, scores[i].valid_weight});
   }
-  if (!places.empty()) scored.per_place = poses.size() / places.size();
   return scored;
 }
 
@@ -82,46 +78,31 @@ ScoredPoses score_around(const MapIndex& map, const Template& local,
 std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& local,
                                         const std::vector<MatchCandidate>& places,
                                         const Grid& grid) {
-  const ScoredPoses scored = score_around(map, local, places, grid);
+  const std::vector<MatchCandidate> scored = score_around(map, local, places, grid);
+  const std::size_t per_place = places.empty() ? 1 : scored.size() / places.size();
   std::vector<MatchCandidate> best;
-  for (std::size_t begin = 0; begin < scored.candidates.size(); begin += scored.per_place) {
-    const MatchCandidate* top = &scored.candidates[begin];
-    for (std::size_t i = begin; i < begin + scored.per_place; ++i) {
-      const MatchCandidate& candidate = scored.candidates[i];
-      if (candidate.score > top->score || std::isnan(top->score)) top = &candidate;
+  for (std::size_t begin = 0; begin < scored.size(); begin += per_place) {
+    const MatchCandidate* top = &scored[begin];
+    for (std::size_t i = begin; i < begin + per_place; ++i) {
+      if (scored[i].score > top->score || std::isnan(top->score)) top = &scored[i];
     }
     if (!std::isnan(top->score)) best.push_back(*top);
   }
   return best;
 }
 
-/// The highest places of the ridges that the first `kRidges` places lie on, those themselves not
-/// among them. Poses within 2 m (of maps of 10 cm a pixel) and one step in heading are looked at.
-std::vector<MatchCandidate> along_ridges(const MapIndex& map, const Template& local,
-                                         const MapIndex& half_map, const Template& half,
-                                         const std::vector<MatchCandidate>& places,
-                                         double yaw_step) {
+/// The best `count` of `places` after a grid of full resolution around each, climbed.
+std::vector<MatchCandidate> climbed(const MapIndex& map, const Template& local,
+                                    std::vector<MatchCandidate> places, std::size_t count,
+                                    double yaw_step) {
   const double resolution = map.channel().geo.resolution;
-  const int turns = yaw_step > 0.0 ? 1 : 0;
-  std::vector<MatchCandidate> found;
-  for (std::size_t k = 0; k < std::min<std::size_t>(kRidges, places.size()); ++k) {
-    std::vector<MatchCandidate> ridge = score_around(half_map, half, {places[k]},
-                                                     {.positions = 10,
-                                                      .step = 2.0 * resolution,
-                                                      .headings = 3 * turns,
-                                                      .yaw_step = yaw_step / 3.0})
-                                            .candidates;
-    std::erase_if(ridge, [](const MatchCandidate& pose) { return std::isnan(pose.score); });
-    ridge = best_places(std::move(ridge), kRidgePlaces, 4.0 * resolution, 0.5 * yaw_step);
-    ridge = best_around(
-        map, local, ridge,
-        {.positions = 2, .step = resolution, .headings = 2 * turns, .yaw_step = yaw_step / 6.0});
-    ridge = best_places(std::move(ridge), kClimbedRidgePlaces, 2.0 * resolution, 0.2 * yaw_step);
-    for (const MatchCandidate& place : ridge) {
-      found.push_back(climb(map, local, place, turns > 0));
-    }
-  }
-  return found;
+  const bool turns = yaw_step > 0.0;
+  places = best_around(
+      map, local, places,
+      {.positions = 2, .step = resolution, .headings = turns ? 2 : 0, .yaw_step = yaw_step / 6.0});
+  places = best_places(std::move(places), count, 2.0 * resolution, 0.2 * yaw_step);
+  for (MatchCandidate& place : places) place = climb(map, local, place, turns);
+  return places;
 }
 
 }  // namespace
@@ -165,18 +146,23 @@ std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& l
       {.positions = 2, .step = 2.0 * resolution, .headings = turns, .yaw_step = yaw_step / 3.0});
   const auto fine = static_cast<std::size_t>(std::max(kFinePlaces, map.options().candidates));
   places = best_places(std::move(places), fine, 3.0 * resolution, 0.5 * yaw_step);
-  places = best_around(
-      map, local, places,
-      {.positions = 2, .step = resolution, .headings = 2 * turns, .yaw_step = yaw_step / 6.0});
-  const auto climbed = static_cast<std::size_t>(std::max(kClimbedPlaces, map.options().candidates));
-  places = best_places(std::move(places), climbed, 2.0 * resolution, 0.2 * yaw_step);
-  for (MatchCandidate& place : places) place = climb(map, local, place, turns > 0);
-  places = best_places(std::move(places), climbed, map.options().peak_separation_m, kPi);
-  const std::vector<MatchCandidate> higher =
-      along_ridges(map, local, half_map, half, places, yaw_step);
-  places.insert(places.end(), higher.begin(), higher.end());
+  const auto most = static_cast<std::size_t>(std::max(kClimbedPlaces, map.options().candidates));
+  places = climbed(map, local, std::move(places), most, yaw_step);
+
+  const double separation = map.options().peak_separation_m;
+  const Grid ridge{.positions = kRidgeReach,
+                   .step = 2.0 * resolution,
+                   .headings = 3 * turns,
+                   .yaw_step = yaw_step / 3.0};
+  for (const MatchCandidate& top : best_places(places, kRidges, separation, kPi)) {
+    std::vector<MatchCandidate> around = score_around(half_map, half, {top}, ridge);
+    std::erase_if(around, [](const MatchCandidate& pose) { return std::isnan(pose.score); });
+    around = best_places(std::move(around), kRidgePlaces, 4.0 * resolution, 0.5 * yaw_step);
+    around = climbed(map, local, std::move(around), kClimbedRidgePlaces, yaw_step);
+    places.insert(places.end(), around.begin(), around.end());
+  }
   return best_places(std::move(places), static_cast<std::size_t>(map.options().candidates),
-                     map.options().peak_separation_m, kPi);
+                     separation, kPi);
 }
 
 }  // namespace nadir

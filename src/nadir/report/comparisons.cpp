@@ -45,7 +45,7 @@ void draw_scale(Canvas& canvas, const Box& patch, const Orthomosaic& local) {
 }
 
 void draw_row(Canvas& canvas, const Orthomosaic& map, const Comparison& comparison, double top) {
-  const std::string label = comparison.label + ": local map, x forward to the right";
+  const std::string label = comparison.label + ", x forward to the right";
   if (comparison.local.image.empty()) {
     draw_note(canvas, column_box(0, top), comparison.label + ": no local map");
     return;
