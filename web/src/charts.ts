@@ -47,7 +47,8 @@ const HEALTH: Plot[] = [
 /** Charts over time that share cursor and instant; a click goes to its frame. */
 export class Charts {
   private plots: { plot: uPlot; about: Plot }[] = [];
-  private stamps: number[] = [];
+  /** Seconds since the first frame: stamps of the wall clock are too long to read. */
+  private seconds: number[] = [];
 
   constructor(private readonly parent: HTMLElement, private readonly store: Store) {
     const observer = new ResizeObserver(() => this.resize());
@@ -68,10 +69,14 @@ export class Charts {
 
   update(): void {
     const frames = this.store.state.run.frames;
-    this.stamps = frames.map((frame) => frame.stamp);
+    this.seconds = frames.map((frame) => this.sinceStart(frame));
     for (const { plot, about } of this.plots) {
-      plot.setData([this.stamps, ...about.series.map((s) => frames.map((f) => s.value(f)))] as uPlot.AlignedData);
+      plot.setData([this.seconds, ...about.series.map((s) => frames.map((f) => s.value(f)))] as uPlot.AlignedData);
     }
+  }
+
+  private sinceStart(frame: Frame): number {
+    return frame.stamp - (this.store.state.run.frames[0]?.stamp ?? 0);
   }
 
   redraw(): void {
@@ -96,7 +101,7 @@ export class Charts {
       cursor: { sync: { key: "time" }, y: false, drag: { x: false, y: false } },
       legend: { show: about.series.length > 1, live: false },
       scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high) } },
-      axes: [{ ...axis, size: 24, space: 60 }, { ...axis, size: 48, space: 24 }],
+      axes: [{ ...axis, size: 24, space: 60, values: (_, ticks) => ticks.map((tick) => `${tick} s`) }, { ...axis, size: 48, space: 24 }],
       series: [
         { label: "s" },
         ...about.series.map((s) => ({ label: s.label, stroke: s.colour, width: 1.5, points: { show: false } })),
@@ -110,15 +115,15 @@ export class Charts {
 
   private seekAt(plot: uPlot): void {
     const left = plot.cursor.left ?? -1;
-    if (left < 0 || this.stamps.length === 0) return;
+    if (left < 0 || this.seconds.length === 0) return;
     this.store.set({ playing: false });
-    this.store.seek(nearestFrame(this.stamps, plot.posToVal(left, "x")));
+    this.store.seek(nearestFrame(this.seconds, plot.posToVal(left, "x")));
   }
 
   private markInstant(plot: uPlot): void {
     const frame = this.store.frame;
     if (!frame) return;
-    const x = Math.round(plot.valToPos(frame.stamp, "x", true));
+    const x = Math.round(plot.valToPos(this.sinceStart(frame), "x", true));
     const { ctx } = plot;
     ctx.save();
     ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--accent").trim();
