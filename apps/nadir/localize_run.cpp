@@ -42,7 +42,7 @@ void keep_for_figures(RunResult& result, const RunPlan& plan, const ParticleSet&
                       Orthomosaic local) {
   const FrameRecord& record = result.records.back();
   const Pose2& pose = record.estimate.map_from_robot;
-  result.local_maps.push_back({pose, local.geo, local.width(), local.height()});
+  result.seen.push_back(seen_ground(local, pose));
   if (!is_figure_instant(result.records.size() - 1, plan.frames.size())) return;
   const std::string label = "frame " + std::to_string(record.number);
   result.swarms.push_back({label, particles.poses, particles.weights, pose,

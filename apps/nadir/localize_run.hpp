@@ -60,9 +60,9 @@ struct RunResult {
   // For the figures, the first two at instants spread over the run.
   std::vector<Swarm> swarms;
   std::vector<Comparison> comparisons;
-  std::vector<Footprint> local_maps;  ///< of every frame, at its estimate
-  double prepare_s = 0.0;             ///< the localizer's preparation of the map
-  bool interrupted = false;           ///< the records end early
+  std::vector<SeenGround> seen;  ///< by the local map of every frame, at its estimate
+  double prepare_s = 0.0;        ///< the localizer's preparation of the map
+  bool interrupted = false;      ///< the records end early
 
   Trajectory trajectory() const;
   int answered() const;  ///< frames whose local map was compared

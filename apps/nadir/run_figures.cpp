@@ -78,7 +78,7 @@ std::vector<std::string> draw_run(const std::filesystem::path& folder, const Run
          return draw_comparisons(figures.map, comparisons_of(figures.result), figures.title);
        }},
       {"coverage.png",
-       [&] { return draw_coverage(figures.map, figures.result.local_maps, figures.title); }},
+       [&] { return draw_coverage(figures.map, figures.result.seen, figures.title); }},
       {"diagnostics.png", [&] { return diagnostics(figures); }},
   };
   if (figures.evaluation != nullptr) {

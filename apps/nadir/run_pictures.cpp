@@ -25,7 +25,7 @@ constexpr std::array<RunPicture, 4> kPictures{{
      "Local maps beside what the map shows at the estimated pose, and both in turn: edges run on "
      "from square to square where the estimate is right."},
     {"coverage.png", "how often the ground was seen",
-     "How many local maps show each place, laid down at the estimated poses."},
+     "How many local maps show each place, holes left out, laid down at the estimated poses."},
 }};
 
 /// A picture of imagery is several times smaller as JPEG, and looks alike.

@@ -14,38 +14,42 @@ using namespace report;
 
 constexpr double kMostCells = 1000.0;  ///< along a side
 constexpr double kFinestCell = 0.1;    ///< metres
+constexpr int kSeenCell = 4;           ///< pixels of a local map
 constexpr double kBarRoom = 110.0;     ///< right of the map: the colour bar and its numbers
 
-Region content_of(const std::vector<Footprint>& local_maps) {
+Region content_of(const std::vector<SeenGround>& local_maps) {
   Region content;
-  for (const Footprint& one : local_maps) {
-    if (!one.map_from_robot.is_finite()) continue;
-    for (const auto& corner : outline_of(one.map_from_robot, one.geo, one.width, one.height)) {
+  for (const SeenGround& one : local_maps) {
+    const auto& [pose, geo, width, height] = one.outline;
+    if (!pose.is_finite()) continue;
+    for (const auto& corner : outline_of(pose, geo, width, height)) {
       content.include(corner.x, corner.y);
     }
   }
   return content;
 }
 
-/// Counts one for every cell whose middle lies in the outline.
-void add(Raster<float>& count, const GeoReference& geo, const Footprint& footprint) {
-  if (!footprint.map_from_robot.is_finite()) return;
-  const Region seen = content_of({footprint});
-  const PixelCoordinate first = geo.pixel_at(seen.west, seen.north);
-  const PixelCoordinate last = geo.pixel_at(seen.east, seen.south);
-  const auto robot_from_map = footprint.map_from_robot.inverse();
-  const double east = footprint.geo.x_at(footprint.width);
-  const double south = footprint.geo.y_at(footprint.height);
+bool is_seen(const SeenGround& ground, const Point2<frames::Robot>& at) {
+  const PixelCoordinate pixel = ground.outline.geo.pixel_at(at.x, at.y);
+  const int column = static_cast<int>(std::floor(pixel.column / kSeenCell));
+  const int row = static_cast<int>(std::floor(pixel.row / kSeenCell));
+  return ground.valid.contains(column, row) && ground.valid.at(column, row) != 0;
+}
+
+/// Counts one for every cell whose middle has been seen.
+void add(Raster<float>& count, const GeoReference& geo, const SeenGround& ground) {
+  if (!ground.outline.map_from_robot.is_finite()) return;
+  const Region around = content_of({ground});
+  const PixelCoordinate first = geo.pixel_at(around.west, around.north);
+  const PixelCoordinate last = geo.pixel_at(around.east, around.south);
+  const auto robot_from_map = ground.outline.map_from_robot.inverse();
   const int last_row = std::min(static_cast<int>(last.row), count.height() - 1);
   const int last_column = std::min(static_cast<int>(last.column), count.width() - 1);
   for (int row = std::max(0, static_cast<int>(first.row)); row <= last_row; ++row) {
     for (int column = std::max(0, static_cast<int>(first.column)); column <= last_column;
          ++column) {
       const Point2<frames::Map> middle{geo.x_at(column + 0.5), geo.y_at(row + 0.5)};
-      const Point2<frames::Robot> p = robot_from_map * middle;
-      const bool inside =
-          p.x >= footprint.geo.west && p.x < east && p.y <= footprint.geo.north && p.y > south;
-      if (inside) count.at(column, row) += 1.0F;
+      if (is_seen(ground, robot_from_map * middle)) count.at(column, row) += 1.0F;
     }
   }
 }
@@ -55,13 +59,13 @@ struct Counted {
   GeoReference geo;
 };
 
-Counted count_of(const std::vector<Footprint>& local_maps, const Region& content) {
+Counted count_of(const std::vector<SeenGround>& local_maps, const Region& content) {
   const double cell =
       std::max(kFinestCell, std::max(content.width(), content.height()) / kMostCells);
   Counted counted{Raster<float>(static_cast<int>(std::ceil(content.width() / cell)),
                                 static_cast<int>(std::ceil(content.height() / cell))),
                   {content.west, content.north, cell, {}}};
-  for (const Footprint& footprint : local_maps) add(counted.count, counted.geo, footprint);
+  for (const SeenGround& ground : local_maps) add(counted.count, counted.geo, ground);
   for (float& value : counted.count.values()) {
     if (value == 0.0F) value = std::numeric_limits<float>::quiet_NaN();
   }
@@ -70,7 +74,29 @@ Counted count_of(const std::vector<Footprint>& local_maps, const Region& content
 
 }  // namespace
 
-Figure draw_coverage(const Orthomosaic& map, const std::vector<Footprint>& local_maps,
+SeenGround seen_ground(const Orthomosaic& local, const Pose2& map_from_robot) {
+  const Raster<std::uint8_t>& pixels = local.valid;
+  SeenGround ground{{map_from_robot, local.geo, local.width(), local.height()},
+                    Raster<std::uint8_t>((pixels.width() + kSeenCell - 1) / kSeenCell,
+                                         (pixels.height() + kSeenCell - 1) / kSeenCell)};
+  for (int row = 0; row < ground.valid.height(); ++row) {
+    for (int column = 0; column < ground.valid.width(); ++column) {
+      int valid = 0;
+      int all = 0;
+      for (int v = kSeenCell * row; v < std::min(kSeenCell * (row + 1), pixels.height()); ++v) {
+        for (int u = kSeenCell * column; u < std::min(kSeenCell * (column + 1), pixels.width());
+             ++u) {
+          ++all;
+          if (pixels.at(u, v) != 0) ++valid;
+        }
+      }
+      ground.valid.at(column, row) = 2 * valid >= all ? 1 : 0;
+    }
+  }
+  return ground;
+}
+
+Figure draw_coverage(const Orthomosaic& map, const std::vector<SeenGround>& local_maps,
                      const std::string& title) {
   const Region content = content_of(local_maps);
   MapLayout layout = lay_out_map(

@@ -84,9 +84,19 @@ struct Comparison {
 Figure draw_comparisons(const Orthomosaic& map, const std::vector<Comparison>& comparisons,
                         const std::string& title);
 
-/// How many of the local maps show each place, over the map: their outlines at their poses, holes
-/// included; colour bar, scale bar, north arrow.
-Figure draw_coverage(const Orthomosaic& map, const std::vector<Footprint>& local_maps,
+/// What a local map shows of the ground.
+struct SeenGround {
+  Footprint outline;
+  Raster<std::uint8_t> valid;  ///< cells that tile the outline, row 0 its top; 0: mostly holes
+};
+
+/// Of a local map at the pose of its robot, in cells of 4 x 4 pixels (less at the rims), valid
+/// where at least half of the pixels are. The pose may be NaN.
+SeenGround seen_ground(const Orthomosaic& local, const Pose2& map_from_robot);
+
+/// How many of the local maps show each place, over the map: what they have seen at their poses,
+/// holes left out; colour bar, scale bar, north arrow. NaN poses are not drawn.
+Figure draw_coverage(const Orthomosaic& map, const std::vector<SeenGround>& local_maps,
                      const std::string& title);
 
 /// One curve of a time plot.
