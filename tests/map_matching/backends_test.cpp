@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <tuple>
 
@@ -26,6 +27,7 @@ struct Variant {
   Channel channel = Channel::kGrey;
   double tolerance = 1e-5;  ///< of surfaces; for the distances, of grey levels
   const char* name = "";
+  friend void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 };
 
 const Variant kVariants[] = {
@@ -39,6 +41,7 @@ const Variant kVariants[] = {
     {.score = Score::kWnccPaper, .tolerance = 2e-4, .name = "wncc_paper_literal"},
     {.score = Score::kWnccPaper,
      .weight = PaperWeight::kNormalised,
+     .tolerance = 1e-6,
      .name = "wncc_paper_normalised"},
     {.score = Score::kZncc, .name = "zncc"},
     {.score = Score::kZwncc, .name = "zwncc"},

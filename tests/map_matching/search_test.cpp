@@ -128,7 +128,10 @@ std::vector<Pose2> cloud(const Pose2& around, std::uint64_t count, double half_s
 TEST(PoseSurfaces, AreCloseToExactScores) {
   const Texture texture(40);
   const Pose2 truth{11.0, 9.0, kPi - 0.01};  // headings on both sides of the turn of the angle
-  for (const Score score : {Score::kZwncc, Score::kNcc, Score::kWncc, Score::kWnccPaper}) {
+  // Without the factor that a few exact scores give, wncc_paper is 0.019 off.
+  for (const auto& [score, limit] :
+       {std::pair{Score::kZwncc, 7e-3}, std::pair{Score::kNcc, 2e-3}, std::pair{Score::kWncc, 4e-3},
+        std::pair{Score::kWnccPaper, 0.013}}) {
     MatchingOptions options = with(Search::kAuto, PoseScoring::kSurface);
     options.score = score;
     options.paper_weight = PaperWeight::kNormalised;
@@ -145,7 +148,7 @@ TEST(PoseSurfaces, AreCloseToExactScores) {
       // Holes grow by a pixel where the map is sampled, by half of one where the template is.
       ASSERT_NEAR(fast[i].valid_weight, exact[i].valid_weight, 0.1);
     }
-    EXPECT_LT(std::sqrt(squares / 300.0), 2e-2) << to_string(score);
+    EXPECT_LT(std::sqrt(squares / 300.0), limit) << to_string(score);
   }
 }
 
@@ -179,7 +182,7 @@ TEST(PoseSurfaces, AreTakenForManyPosesAndNotForFew) {
   EXPECT_FALSE(takes_surfaces(map, local, cloud(truth, 20000, 1e6, kPi)));
 }
 
-TEST(PoseSurfaces, OneUndisturbedPoseIsTheSurfaceItself) {
+TEST(PoseSurfaces, OneUndisturbedPoseLiesBetweenTheSurfaceAndTheExactScore) {
   const Texture texture(43);
   const MapIndex map(map_of(texture), with(Search::kAuto, PoseScoring::kSurface));
   const Template local = make_template(local_of(texture, {10.0, 9.0, 0.3}, 61, 61), map.options());
@@ -187,9 +190,12 @@ TEST(PoseSurfaces, OneUndisturbedPoseIsTheSurfaceItself) {
   const auto fast = score_poses(map, local, std::span(&pose, 1));
   const RotatedTemplate turned =
       rotate_template(local.channel, 0.3, 0.1, pixel_role(map.options()));
-  const auto surface =
-      reference_backend().score_surfaces(map, std::span(&turned, 1), {90, 70, 1, 1});
-  EXPECT_NEAR(fast[0].score, surface[0].score.at(0, 0), 1e-5);
+  const double surface =
+      reference_backend().score_surfaces(map, std::span(&turned, 1), {90, 70, 1, 1})[0].score.at(0,
+                                                                                                 0);
+  const double exact = reference_backend().score_poses(map, local, std::span(&pose, 1))[0].score;
+  EXPECT_GE(fast[0].score, std::min(surface, exact) - 1e-5);
+  EXPECT_LE(fast[0].score, std::max(surface, exact) + 1e-5);
 }
 
 }  // namespace

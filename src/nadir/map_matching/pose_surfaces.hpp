@@ -13,8 +13,9 @@ namespace nadir {
 bool takes_surfaces(const MapIndex& map, const Template& local,
                     std::span<const Pose2> map_from_robot);
 
-/// Scores by trilinear interpolation between the score surfaces of a few headings over the window
-/// of the poses. Poses beside undefined scores are scored exactly.
+/// Scores by interpolation (cubic in position, linear in heading) between the score surfaces of a
+/// few headings over the window of the poses, brought to the size of exact ones by a factor that a
+/// few exactly scored poses give. Poses beside undefined scores are scored exactly.
 std::vector<PoseScore> score_by_surfaces(const MapIndex& map, const Template& local,
                                          std::span<const Pose2> map_from_robot);
 
