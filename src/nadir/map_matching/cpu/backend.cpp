@@ -66,9 +66,10 @@ class CpuBackend : public MatchingBackend {
     if (cpu::is_closed_form(options.score)) {
       return cpu::closed_form_surfaces(map, templates, window);
     }
-    const cpu::Region region =
-        cpu::cut_region(map.channel(), templates, window, pixel_role(options).whole_square,
-                        cpu::RegionExtent::kWhole);
+    const cpu::Region region = cpu::cut_region(
+        map.channel(),
+        cpu::place_region(map.channel(), templates, window, cpu::RegionExtent::kWhole), window,
+        pixel_role(options).whole_square);
     if (options.score == Score::kSad) return cpu::sad_surfaces(options, region, templates, window);
     return cpu::paper_surfaces(options, region, templates, window);
   }

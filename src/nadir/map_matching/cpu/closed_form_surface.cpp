@@ -28,10 +28,12 @@ constexpr std::size_t kScratchBudget = std::size_t{256} << 20U;
 bool is_cosine(Score score) { return score == Score::kNcc || score == Score::kWncc; }
 constexpr Product kCosineProducts[] = {{0, 0}, {2, 0}, {0, 1}, {1, 2}};
 
-std::shared_ptr<const MapSpectra> compute_spectra(const MapIndex& map, const Region& region) {
+std::shared_ptr<const MapSpectra> compute_spectra(const MapIndex& map, const RegionPlace& place,
+                                                  const PixelWindow& window) {
   const bool whole_square = pixel_role(map.options()).whole_square;
+  const Region region = cut_region(map.channel(), place, window, whole_square);
   auto spectra = std::make_shared<MapSpectra>(
-      MapSpectra{Correlator(region.period_width, region.period_height),
+      MapSpectra{Correlator(place.period_width, place.period_height),
                  is_cosine(map.options().score) ? 0.0 : map.mean_grey()});
   const Raster<float> value = shifted(region.value, region.takes_part, spectra->shift);
   spectra->mask = spectra->correlator.forward(region.takes_part);
@@ -108,9 +110,9 @@ void assemble(const MatchingOptions& options, const LocalImages& images, const S
   }
 }
 
-ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options, const Region& region,
-                        const RotatedTemplate& local, const PixelWindow& window,
-                        CorrelatorScratch& scratch, bool parallel) {
+ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options,
+                        const RegionPlace& place, const RotatedTemplate& local,
+                        const PixelWindow& window, CorrelatorScratch& scratch, bool parallel) {
   const Shifts shifts{map.shift, mean_grey(local.value, local.mask)};
   const LocalImages images = is_cosine(options.score) ? cosine_images(options, local)
                                                       : local_images(options, local, shifts.local);
@@ -118,7 +120,7 @@ ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options, c
   for (const Raster<float>& image : images.images) locals.push_back(&image);
   std::vector<const Spectrum*> maps = {&map.mask, &map.value, &map.squares};
   if (!map.seen.empty()) maps.push_back(&map.seen);
-  const CorrelationWindow part{local.left - region.left, local.top - region.top, window.width,
+  const CorrelationWindow part{local.left - place.left, local.top - place.top, window.width,
                                window.height};
 
   ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
@@ -145,16 +147,19 @@ std::vector<ScoreSurface> tile_surfaces(const MapIndex& map,
                                         const PixelWindow& window) {
   const MatchingOptions& options = map.options();
   const bool whole_square = pixel_role(options).whole_square;
-  const Region region = cut_region(map.channel(), templates, window, whole_square,
-                                   whole_square ? RegionExtent::kWhole : RegionExtent::kWithinMap);
-  const bool whole_map = !whole_square && region.value.same_size(map.channel().value);
-  const auto compute = [&] { return compute_spectra(map, region); };
+  const RegionPlace place =
+      place_region(map.channel(), templates, window,
+                   whole_square ? RegionExtent::kWhole : RegionExtent::kWithinMap);
+  const Raster<std::uint8_t>& whole = map.channel().value;
+  const bool whole_map =
+      !whole_square && place.width == whole.width() && place.height == whole.height();
+  const auto compute = [&] { return compute_spectra(map, place, window); };
   // Another backend's where the index was made for that one.
   auto* const cache = dynamic_cast<MapCache*>(map.prepared());
   const std::shared_ptr<const MapSpectra> spectra =
       whole_map && cache != nullptr
-          ? cache->whole_map(cheapest_fft_size(static_cast<std::size_t>(region.period_width),
-                                               static_cast<std::size_t>(region.period_height)),
+          ? cache->whole_map(cheapest_fft_size(static_cast<std::size_t>(place.period_width),
+                                               static_cast<std::size_t>(place.period_height)),
                              compute)
           : compute();
 
@@ -171,7 +176,7 @@ std::vector<ScoreSurface> tile_surfaces(const MapIndex& map,
     CorrelatorScratch scratch;
     for (std::size_t k = slot; k < templates.size(); k += slots) {
       surfaces[k] =
-          surface_of(*spectra, options, region, templates[k], window, scratch, slots < threads);
+          surface_of(*spectra, options, place, templates[k], window, scratch, slots < threads);
     }
   });
   return surfaces;

@@ -46,7 +46,8 @@ double count_of(const Raster<float>& mask) {
 
 CorrelationWindow part_of(const Region& region, const RotatedTemplate& local,
                           const PixelWindow& window) {
-  return {local.left - region.left, local.top - region.top, window.width, window.height};
+  return {local.left - region.place.left, local.top - region.place.top, window.width,
+          window.height};
 }
 
 WindowMoments window_moments(const Correlator& correlator, const PaperMapSpectra& map,
@@ -195,7 +196,7 @@ ScoreSurface paper_surface(const Correlator& correlator, const std::map<int, Spe
 std::vector<ScoreSurface> paper_surfaces(const MatchingOptions& options, const Region& region,
                                          std::span<const RotatedTemplate> templates,
                                          const PixelWindow& window) {
-  const Correlator correlator(region.period_width, region.period_height);
+  const Correlator correlator(region.place.period_width, region.place.period_height);
   PaperMapSpectra map;
   map.shift = mean_grey(region.value, region.takes_part);
   const Raster<float> value = shifted(region.value, region.takes_part, map.shift);

@@ -39,28 +39,30 @@ TemplateBounds bounds_of(std::span<const RotatedTemplate> templates) {
   return bounds;
 }
 
-Region cut_region(const ChannelImage& map, std::span<const RotatedTemplate> templates,
-                  const PixelWindow& window, bool whole_square, RegionExtent extent) {
+RegionPlace place_region(const ChannelImage& map, std::span<const RotatedTemplate> templates,
+                         const PixelWindow& window, RegionExtent extent) {
   const TemplateBounds bounds = bounds_of(templates);
   const Interval columns{window.left + bounds.left, window.left + window.width - 1 + bounds.right};
   const Interval rows{window.top + bounds.top, window.top + window.height - 1 + bounds.bottom};
   const bool clip = extent == RegionExtent::kWithinMap;
   const Interval u_range = clip ? within(columns, map.value.width()) : columns;
   const Interval v_range = clip ? within(rows, map.value.height()) : rows;
+  return {u_range.begin - window.left,
+          v_range.begin - window.top,
+          u_range.end - u_range.begin,
+          v_range.end - v_range.begin,
+          period(columns, u_range, bounds.right - bounds.left),
+          period(rows, v_range, bounds.bottom - bounds.top)};
+}
 
-  const int width = u_range.end - u_range.begin;
-  const int height = v_range.end - v_range.begin;
-  Region region{u_range.begin - window.left,
-                v_range.begin - window.top,
-                period(columns, u_range, bounds.right - bounds.left),
-                period(rows, v_range, bounds.bottom - bounds.top),
-                Raster<float>(width, height),
-                Raster<float>(width, height),
-                Raster<float>(width, height)};
-  for (int row = 0; row < height; ++row) {
-    for (int column = 0; column < width; ++column) {
-      const int u = u_range.begin + column;
-      const int v = v_range.begin + row;
+Region cut_region(const ChannelImage& map, const RegionPlace& place, const PixelWindow& window,
+                  bool whole_square) {
+  Region region{place, Raster<float>(place.width, place.height),
+                Raster<float>(place.width, place.height), Raster<float>(place.width, place.height)};
+  for (int row = 0; row < place.height; ++row) {
+    for (int column = 0; column < place.width; ++column) {
+      const int u = window.left + place.left + column;
+      const int v = window.top + place.top + row;
       const bool seen = map.value.contains(u, v) && map.valid.at(u, v) != 0;
       if (seen) region.valid.at(column, row) = 1.0F;
       if (!seen && !whole_square) continue;

@@ -32,10 +32,10 @@ RowSums sum_row(const Region& region, const RotatedTemplate& local, const PixelW
                 int position_row) {
   RowSums sums(static_cast<std::size_t>(window.width));
   for (int row = 0; row < local.value.height(); ++row) {
-    const int map_row = position_row + local.top - region.top + row;
+    const int map_row = position_row + local.top - region.place.top + row;
     for (int column = 0; column < local.value.width(); ++column) {
       if (local.mask.at(column, row) == 0.0F) continue;
-      const int map_column = local.left - region.left + column;
+      const int map_column = local.left - region.place.left + column;
       add_pixel(sums, &region.value.at(map_column, map_row),
                 &region.takes_part.at(map_column, map_row), &region.valid.at(map_column, map_row),
                 local.value.at(column, row), local.seen.at(column, row));
