@@ -73,7 +73,9 @@ std::vector<int> block_of(const SimulatedFlight& flight, const SimulatedWorld& w
 /// The drone as it was, and the flight in the frame of the map.
 struct Truth {
   std::map<std::string, PhotoPose> poses;  ///< local metres
-  Eigen::Vector3d map_from_local;          ///< a shift: both are grid metres
+  /// From the first row to the last the drone flew on by so much, metres.
+  std::map<std::string, Eigen::Vector3d> flown_in_readout;
+  Eigen::Vector3d map_from_local;  ///< a shift: both are grid metres
 };
 
 PhotoSet photos_of(const SimulatedFlight& flight, const std::vector<int>& chosen,
@@ -108,6 +110,7 @@ PhotoSet photos_of(const SimulatedFlight& flight, const std::vector<int>& chosen
     const auto pixels = std::make_shared<Raster<std::uint8_t>>(flight.render(chosen[k]).image);
     photo.load = [pixels] { return *pixels; };
     truth.poses[photo.name] = flight.truth(chosen[k]);
+    truth.flown_in_readout[photo.name] = options.readout_s * flight.velocity(chosen[k]);
     set.photos.push_back(photo);
   }
   return set;
@@ -246,7 +249,9 @@ void print_errors(const AerialMap& map, const SimulatedWorld& world, const Simul
       if (!pixel) continue;
       const PhotoPose& exact = truth.poses.at(pose.name);
       const Eigen::Vector3d ray = exact.map_from_camera.rotation * exact.camera.ray(*pixel);
-      const Eigen::Vector3d& centre = exact.map_from_camera.translation;
+      const Eigen::Vector3d centre =
+          exact.map_from_camera.translation +
+          ((pixel->y() + 0.5) / exact.camera.height - 0.5) * truth.flown_in_readout.at(pose.name);
       double ground = 0.0;
       Eigen::Vector3d p = centre;
       for (int pass = 0; pass < 10; ++pass) {

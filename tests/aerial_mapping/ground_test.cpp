@@ -60,6 +60,41 @@ TEST(Ground, OutliersGoAndStepsStay) {
   for (const Eigen::Vector3d& p : kept) EXPECT_LT(std::abs(p.z() - 3.0), 3.5);
 }
 
+double block(double x, double y) {
+  return std::abs(x - 20.0) < 5.0 && std::abs(y - 15.0) < 4.0 ? 6.0 : 0.0;
+}
+
+TEST(Ground, TheFootOfAWallIsNotLifted) {
+  std::vector<Eigen::Vector3d> points = points_on(block, 4000);
+  // Shadow and lean leave no points on the ground within 2 m of the walls.
+  std::erase_if(points, [](const auto& p) {
+    return p.z() == 0.0 && std::abs(p.x() - 20.0) < 7.0 && std::abs(p.y() - 15.0) < 6.0;
+  });
+  const Ground ground = triangulated_ground(points, {0, 0, 40, 30}, 0.4);
+  for (const double away : {0.7, 1.2, 1.7}) {
+    EXPECT_NEAR(ground.height_at(25.0 + away, 15.0), 0.0, 0.01) << away;
+    EXPECT_NEAR(ground.height_at(20.0, 11.0 - away), 0.0, 0.01) << away;
+    EXPECT_GT(ground.ramp_at(25.0 + away, 15.0), 0.5) << away;
+  }
+  EXPECT_NEAR(ground.height_at(20.0, 15.0), 6.0, 0.01);
+}
+
+TEST(Ground, GoesOnBeyondThePointsWhereTheyAreLevel) {
+  const auto beyond = [](double (*height)(double, double)) {
+    std::vector<Eigen::Vector3d> points = points_on(height, 4000);
+    std::erase_if(points, [](const auto& p) { return p.x() > 22.0; });
+    points.emplace_back(22.0, 5.0, -4.0);  // one wrong point at the rim
+    return triangulated_ground(points, {0, 0, 40, 30}, 0.4);
+  };
+  const Ground level = beyond([](double, double) { return 1.0; });
+  EXPECT_NEAR(level.height_at(24.0, 5.0), 1.0, 0.05);
+  EXPECT_TRUE(level.is_known_at(24.0, 25.0, 4.0));
+  // A block at the rim: nobody knows how far it reaches.
+  const Ground rim = beyond(block);
+  EXPECT_FALSE(rim.is_known_at(24.0, 15.0, 4.0));
+  EXPECT_TRUE(rim.is_known_at(24.0, 28.0, 4.0));
+}
+
 TEST(Ground, PlaneIgnoresWhatStandsOnIt) {
   std::vector<Eigen::Vector3d> points = points_on(slope, 500);
   for (std::size_t i = 0; i < points.size(); i += 5) points[i].z() += 8.0;

@@ -17,7 +17,9 @@ namespace {
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
 constexpr double kEdgeCost = 0.3;          // of a place at the border of its photo
 constexpr double kRoughCost = 0.3;         // of ground that rises by 1 m in 1 m, seen obliquely
-constexpr float kProvisionalCost = 10.0F;  // any other view is better
+constexpr double kRampCost = 1.0;          // where the top of a step may be in the way
+constexpr double kHiddenCost = 8.0;        // shows what hides the place: better than a hole in it
+constexpr float kProvisionalCost = 20.0F;  // any other view is better
 constexpr float kBlurredCost = 4.0F;       // any sharp view is better, whatever its angle
 constexpr float kBand = 0.35F;             // of cost, in which a border may move
 
@@ -83,10 +85,13 @@ ViewCells look_through(const View& view, const Ground& ground, const CellGrid& g
       const Eigen::Vector3d point =
           point_of(grid, ground, cells.rect.x + column, cells.rect.y + row);
       const auto sight = sight_of(view, limits, point);
-      if (!sight || is_occluded(view, ground, point)) continue;
+      if (!sight) continue;
+      const Occlusion occlusion = occlusion_of(view, ground, point);
       const double lean = std::tan(sight->off_nadir_rad) / std::tan(limits.max_off_nadir_rad);
       const double cost = lean * lean + kEdgeCost * (1.0 - std::min(1.0, sight->edge)) +
-                          kRoughCost * lean * roughness(grid, ground, point);
+                          kRoughCost * lean * roughness(grid, ground, point) +
+                          (occlusion == Occlusion::kByARamp ? kRampCost : 0.0) +
+                          (occlusion == Occlusion::kByGround ? kHiddenCost : 0.0);
       cells.cost.at<float>(row, column) = static_cast<float>(cost) +
                                           (view.blurred ? kBlurredCost : 0.0F) +
                                           (view.provisional ? kProvisionalCost : 0.0F);
@@ -175,7 +180,7 @@ cv::Mat count_views(const std::vector<ViewCells>& cells, const CellGrid& grid) {
   for (const ViewCells& view : cells)
     for (int row = 0; row < view.rect.height; ++row)
       for (int column = 0; column < view.rect.width; ++column) {
-        if (!(view.cost.at<float>(row, column) < kProvisionalCost)) continue;
+        if (!(view.cost.at<float>(row, column) < kHiddenCost)) continue;
         auto& n = count.at<std::uint8_t>(view.rect.y + row, view.rect.x + column);
         n = static_cast<std::uint8_t>(std::min(255, n + 1));
       }

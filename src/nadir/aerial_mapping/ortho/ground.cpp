@@ -19,8 +19,13 @@ constexpr double kPointsPerBin = 4.0;
 constexpr std::size_t kFewestNeighbours = 6;
 constexpr double kScatter = 4.0 * 1.4826;  // robust standard deviations
 constexpr float kUnknown = std::numeric_limits<float>::lowest();
-constexpr float kBeyond = std::numeric_limits<float>::infinity();
-constexpr double kSpan = 4.0;  // longest side of a triangle, in largest distances
+constexpr float kBeyond = 1e6F;  // metres; finite, for it is interpolated
+constexpr double kSpan = 4.0;    // longest side of a triangle, in largest distances
+constexpr double kAboutM = 5.0;  // reach of what says how high the ground goes on
+static const double kSteep = getenv("SLOPE")
+                                 ? atof(getenv("SLOPE"))
+                                 : 0.7;  // slope (35 degrees) that loose ground does not keep
+constexpr double kStepM = 0.5;           // rise of a steep triangle that is taken for a step
 
 Ground empty_ground(const Extent& extent, double cell_m) {
   Ground ground;
@@ -29,6 +34,7 @@ Ground empty_ground(const Extent& extent, double cell_m) {
       std::max(1, static_cast<int>(std::ceil((extent.north - extent.south) / cell_m)));
   ground.heights.height_m = Raster<float>(width, height, kUnknown);
   ground.heights.geo = {extent.west, extent.north, cell_m, {}};
+  ground.ramp_m = ground.heights.height_m;
   ground.distance_m = Raster<float>(width, height, 0.0F);
   ground.span_m = Raster<float>(width, height, kBeyond);
   return ground;
@@ -99,6 +105,15 @@ std::vector<Triangle> delaunay(const std::vector<Eigen::Vector3d>& points, const
   return triangles;
 }
 
+/// Whether a triangle joins the foot and the top of a step; `cell_m` is the unit of its columns and
+/// rows.
+bool is_step(const Triangle& t, double cell_m) {
+  const auto [lowest, highest] = std::minmax({t[0].z(), t[1].z(), t[2].z()});
+  const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  return highest - lowest > kStepM &&
+         normal.head<2>().norm() > kSteep * cell_m * std::abs(normal.z());
+}
+
 void fill(const Triangle& t, Ground& ground) {
   Raster<float>& heights = ground.heights.height_m;
   const double area =
@@ -114,6 +129,8 @@ void fill(const Triangle& t, Ground& ground) {
   const double longest = std::max({(t[0] - t[1]).head<2>().norm(), (t[1] - t[2]).head<2>().norm(),
                                    (t[2] - t[0]).head<2>().norm()});
   const auto span = static_cast<float>(longest * ground.heights.geo.resolution);
+  const bool step = is_step(t, ground.heights.geo.resolution);
+  const double foot = std::min({t[0].z(), t[1].z(), t[2].z()});
   for (int row = r0; row <= r1; ++row)
     for (int column = c0; column <= c1; ++column) {
       const double x = column + 0.5;
@@ -123,8 +140,9 @@ void fill(const Triangle& t, Ground& ground) {
       const double c =
           ((t[1].x() - t[0].x()) * (y - t[0].y()) - (x - t[0].x()) * (t[1].y() - t[0].y())) / area;
       if (b < kEdge || c < kEdge || b + c > 1.0 - kEdge) continue;
-      heights.at(column, row) =
-          static_cast<float>(t[0].z() + b * (t[1].z() - t[0].z()) + c * (t[2].z() - t[0].z()));
+      const double z = t[0].z() + b * (t[1].z() - t[0].z()) + c * (t[2].z() - t[0].z());
+      ground.ramp_m.at(column, row) = static_cast<float>(z);
+      heights.at(column, row) = static_cast<float>(step ? foot : z);
       ground.span_m.at(column, row) = span;
     }
 }
@@ -133,26 +151,54 @@ cv::Mat view_of(Raster<float>& raster) {
   return {raster.height(), raster.width(), CV_32F, raster.values().data()};
 }
 
-/// Unknown cells take the height of the nearest known one.
-void fill_unknown(Raster<float>& heights) {
+/// Of the known heights about a cell.
+struct Usual {
+  float height = 0.0F;  ///< median
+  bool level = true;    ///< most of them differ by less than a step
+};
+Usual usual_about(const Raster<float>& heights, const cv::Mat& unknown, const cv::Point& cell,
+                  int reach) {
+  std::vector<float> near;
+  const cv::Rect window = cv::Rect(cell.x - reach, cell.y - reach, 2 * reach + 1, 2 * reach + 1) &
+                          cv::Rect(0, 0, heights.width(), heights.height());
+  for (int row = window.y; row < window.y + window.height; ++row)
+    for (int column = window.x; column < window.x + window.width; ++column)
+      if (unknown.at<std::uint8_t>(row, column) == 0) near.push_back(heights.at(column, row));
+  std::sort(near.begin(), near.end());
+  const std::size_t tenth = near.size() / 10;
+  return {near[near.size() / 2], near[near.size() - 1 - tenth] - near[tenth] < kStepM};
+}
+
+/// Beyond the triangles the ground goes on at the usual height about the nearest cell inside: that
+/// one by itself may be a crown, or a point of two photos at the rim that is wrong. Where a step is
+/// near it is unknown which height goes on.
+void extrapolate(Ground& ground) {
+  Raster<float>& heights = ground.heights.height_m;
   cv::Mat unknown(heights.height(), heights.width(), CV_8U);
-  std::map<int, float> height_of_label;
   for (int row = 0; row < heights.height(); ++row)
     for (int column = 0; column < heights.width(); ++column)
       unknown.at<std::uint8_t>(row, column) = heights.at(column, row) == kUnknown ? 1 : 0;
   cv::Mat distance;
   cv::Mat labels;
   cv::distanceTransform(unknown, distance, labels, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  std::map<int, cv::Point> cell_of_label;
   for (int row = 0; row < heights.height(); ++row)
     for (int column = 0; column < heights.width(); ++column)
-      if (heights.at(column, row) != kUnknown)
-        height_of_label[labels.at<int>(row, column)] = heights.at(column, row);
+      if (unknown.at<std::uint8_t>(row, column) == 0)
+        cell_of_label[labels.at<int>(row, column)] = {column, row};
+  const int reach = static_cast<int>(std::ceil(kAboutM / ground.heights.geo.resolution));
+  std::map<int, Usual> usual_of_label;
   for (int row = 0; row < heights.height(); ++row)
-    for (int column = 0; column < heights.width(); ++column)
-      if (heights.at(column, row) == kUnknown) {
-        const auto found = height_of_label.find(labels.at<int>(row, column));
-        if (found != height_of_label.end()) heights.at(column, row) = found->second;
-      }
+    for (int column = 0; column < heights.width(); ++column) {
+      if (unknown.at<std::uint8_t>(row, column) == 0) continue;
+      const auto cell = cell_of_label.find(labels.at<int>(row, column));
+      if (cell == cell_of_label.end()) continue;
+      const auto [usual, is_new] = usual_of_label.try_emplace(cell->first);
+      if (is_new) usual->second = usual_about(ground.ramp_m, unknown, cell->second, reach);
+      heights.at(column, row) = usual->second.height;
+      ground.ramp_m.at(column, row) = usual->second.height;
+      if (!usual->second.level) ground.distance_m.at(column, row) = kBeyond;
+    }
 }
 
 void set_distances(const std::vector<Eigen::Vector3d>& points, Ground& ground) {
@@ -174,6 +220,8 @@ void set_distances(const std::vector<Eigen::Vector3d>& points, Ground& ground) {
 double Ground::height_at(double x, double y) const {
   return bilinear(heights.height_m, heights.geo, x, y);
 }
+
+double Ground::ramp_at(double x, double y) const { return bilinear(ramp_m, heights.geo, x, y); }
 
 double Ground::distance_at(double x, double y) const {
   return bilinear(distance_m, heights.geo, x, y);
@@ -233,14 +281,16 @@ Ground triangulated_ground(const std::vector<Eigen::Vector3d>& points, const Ext
   const auto triangles = delaunay(few, ground.heights.geo, heights.width(), heights.height());
   if (triangles.empty()) return plane_ground(points, extent, cell_m, 0.0);
   for (const Triangle& triangle : triangles) fill(triangle, ground);
-  fill_unknown(heights);
+  set_distances(few, ground);
+  extrapolate(ground);
   if (std::count(heights.values().begin(), heights.values().end(), kUnknown) > 0)
     return plane_ground(points, extent, cell_m, 0.0);
-  cv::Mat smooth;
-  cv::medianBlur(view_of(heights), smooth, 3);
-  cv::Mat to = view_of(heights);
-  smooth.copyTo(to);
-  set_distances(few, ground);
+  for (Raster<float>* raster : {&heights, &ground.ramp_m}) {
+    cv::Mat smooth;
+    cv::Mat to = view_of(*raster);
+    cv::medianBlur(to, smooth, 3);
+    smooth.copyTo(to);
+  }
   return ground;
 }
 
@@ -274,6 +324,7 @@ Ground plane_ground(const std::vector<Eigen::Vector3d>& points, const Extent& ex
       ground.heights.height_m.at(column, row) =
           static_cast<float>(plane.x() + plane.y() * (geo.x_at(column + 0.5) - x0) +
                              plane.z() * (geo.y_at(row + 0.5) - y0));
+  ground.ramp_m = ground.heights.height_m;
   return ground;
 }
 

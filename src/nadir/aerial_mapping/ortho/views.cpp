@@ -13,6 +13,25 @@ namespace {
 constexpr double kOccluderM = 0.3;  // a step of the ground that is taken for a wall
 constexpr int kSteps = 24;
 
+/// `height_at` is what hides.
+template <typename HeightAt>
+bool is_hidden(const View& view, double cell, const Eigen::Vector3d& point, HeightAt height_at) {
+  const Eigen::Vector3d to = view.centre - point;
+  const double across = std::hypot(to.x(), to.y());
+  if (across < 1e-9 || to.z() <= 0.0) return false;
+  // Beyond the height of a tall building nothing stands in the way.
+  constexpr double kTallest = 40.0;
+  const double reach = std::min(across, kTallest * across / to.z());
+  const double step = std::max(cell, reach / kSteps);
+  const int steps = static_cast<int>(std::floor((reach - cell) / step));
+  for (int k = 0; k <= steps; ++k) {
+    const double f = (cell + k * step) / across;
+    const double z = point.z() + f * to.z();
+    if (height_at(point.x() + f * to.x(), point.y() + f * to.y()) > z + kOccluderM) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
@@ -40,23 +59,15 @@ std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
   return sight;
 }
 
-bool is_occluded(const View& view, const Ground& ground, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d to = view.centre - point;
-  const double across = std::hypot(to.x(), to.y());
-  if (across < 1e-9 || to.z() <= 0.0) return false;
+Occlusion occlusion_of(const View& view, const Ground& ground, const Eigen::Vector3d& point) {
   const double cell = ground.heights.geo.resolution;
-  // Beyond the height of a tall building nothing stands in the way.
-  constexpr double kTallest = 40.0;
-  const double reach = std::min(across, kTallest * across / to.z());
-  const double step = std::max(cell, reach / kSteps);
-  const int steps = static_cast<int>(std::floor((reach - cell) / step));
-  for (int k = 0; k <= steps; ++k) {
-    const double f = (cell + k * step) / across;
-    const double z = point.z() + f * to.z();
-    if (ground.height_at(point.x() + f * to.x(), point.y() + f * to.y()) > z + kOccluderM)
-      return true;
-  }
-  return false;
+  if (is_hidden(view, cell, point, [&](double x, double y) { return ground.height_at(x, y); }))
+    return Occlusion::kByGround;
+  const bool at_foot = point.z() < ground.ramp_at(point.x(), point.y()) - 1e-3;
+  if (at_foot &&
+      is_hidden(view, cell, point, [&](double x, double y) { return ground.ramp_at(x, y); }))
+    return Occlusion::kByARamp;
+  return Occlusion::kNone;
 }
 
 std::shared_ptr<const cv::Mat> ViewImages::get(std::size_t view) {

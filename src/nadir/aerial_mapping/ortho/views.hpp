@@ -50,8 +50,11 @@ struct Sight {
 std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
                               const Eigen::Vector3d& point);
 
-/// Whether the ground stands between the point and the view.
-bool is_occluded(const View& view, const Ground& ground, const Eigen::Vector3d& point);
+/// What stands between a point of the ground and a view.
+enum class Occlusion { kNone, kByARamp, kByGround };
+
+/// A ramp (Ground::ramp_m) says how far the top of a step may reach, not that it does.
+Occlusion occlusion_of(const View& view, const Ground& ground, const Eigen::Vector3d& point);
 
 /// Pixels of the views at the size they are sampled at, at most `budget` bytes of them at a time.
 class ViewImages {
