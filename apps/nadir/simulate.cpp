@@ -78,13 +78,16 @@ Json describe(const SimulateOptions& options, const SimulationOptions& simulatio
 
 std::string in_words(const Json& site) {
   return fmt::format(
-      "{} photos of {} x {} px, {:.3f} m a pixel, {} GPS; {} frames ({}) over {:.0f} m\n"
-      "written to {}: photos, {}, truth\n",
+      "{} photos of {} x {} px, {:.3f} m a pixel, {} GPS; {} frames ({}) over {:.0f} m\n",
       site["photos"].get<int>(), site["photo_width_px"].get<int>(),
       site["photo_height_px"].get<int>(), site["photo_resolution_m"].get<double>(),
       site["gps"].get<std::string>(), site["frames"].get<int>(), site["sensors"].get<std::string>(),
-      site["travel_m"].get<double>(), site["output"].get<std::string>(),
-      site["sensors"].get<std::string>());
+      site["travel_m"].get<double>());
+}
+
+std::string where(const SimulateOptions& options) {
+  const std::string drive = options.sensors == "both" ? "stereo, lidar" : options.sensors;
+  return fmt::format("written to {}: photos, {}, truth\n", options.site.string(), drive);
 }
 
 void write_site(const SimulateOptions& options, const SimulatedSite& site,
@@ -127,7 +130,7 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
   manifest.stages.push_back({"simulate", stopwatch.seconds()});
   write_manifest(output.staging(), manifest, effective.table(), effective.origins());
   output.commit();
-  common.json ? print(document) : print(in_words(document));
+  common.json ? print(document) : print(in_words(document) + where(options));
   return 0;
 }
 
@@ -170,9 +173,9 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
       "  nadir simulate -o out/site\n"
       "  nadir simulate -o out/site --preset parking --seed 3 --height 60 --gps rtk\n"
       "  nadir simulate -o out/site --from campus.tif --dsm surface.tif --sensors lidar\n"
-      "SITE holds photos/ (JPEG with EXIF and XMP), stereo/ or lidar/ (KITTI's layout, odometry "
-      "and\n"
-      "true poses) and truth/, a site of its own: what a perfect pipeline would make of it.\n");
+      "SITE holds photos/ (JPEG with EXIF and XMP), stereo/ and lidar/ as asked (KITTI's layout,\n"
+      "odometry and true poses) and truth/, a site of its own: what a perfect pipeline would make "
+      "of it.\n");
 }
 
 }  // namespace nadir::cli

@@ -102,6 +102,9 @@ TEST(DrapedWorld, ShowsTheMapThatItWasGiven) {
   for (const int i : {4, 5, 6}) {
     for (const int j : {4, 5, 6}) surface.height_m.at(i, j) = 33.0F;
   }
+  ElevationMap elsewhere = surface;
+  elsewhere.geo.west += 80000.0;
+  EXPECT_THROW(SimulatedWorld::drape(map, elsewhere, 1), Error);
   const SimulatedWorld draped = SimulatedWorld::drape(map, surface);
   EXPECT_NEAR(draped.ground_height(5.5, 15.0 - 5.5), 3.0, 1e-3);
   EXPECT_NEAR(draped.ground_height(14.0, 3.0), 0.0, 1e-6);

@@ -140,6 +140,11 @@ Sequence read_sequence(const path& folder) {
     throw input_error(folder, "no such folder", "give a sequence folder (docs/formats.md)");
   }
   if (!is_file(index.file)) {
+    const path truth = folder / "truth";
+    if (is_file(truth / sequence_format::kIndexFile)) {
+      throw input_error(folder, "holds no sequence.yaml, its folder truth does",
+                        "a simulated site keeps its sequence there: give " + truth.string());
+    }
     throw input_error(folder, "holds no sequence.yaml",
                       "it is no sequence folder, or its conversion did not finish; convert again");
   }

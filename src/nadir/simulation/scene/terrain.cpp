@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "nadir/core/error.hpp"
 #include "nadir/simulation/scene/ground_spot.hpp"
@@ -116,6 +117,35 @@ double surface_height(const ElevationMap& surface, const Eigen::Vector2d& point)
          b * ((1.0 - a) * height.at(column, below) + a * height.at(right, below));
 }
 
+/// A surface of another place would make flat ground, without a word.
+void require_same_place(const Orthomosaic& map, const ElevationMap& surface) {
+  constexpr double kLeastShare = 0.5;  // of the map, under known heights
+  constexpr int kPerSide = 64;
+  int known = 0;
+  for (int i = 0; i < kPerSide * kPerSide; ++i) {
+    const double x = map.geo.x_at((i % kPerSide + 0.5) / kPerSide * map.width());
+    const double y = map.geo.y_at((i / kPerSide + 0.5) / kPerSide * map.height());
+    const PixelCoordinate at = surface.geo.pixel_at(x, y);
+    const double column = std::floor(at.column);
+    const double row = std::floor(at.row);
+    if (column < 0.0 || row < 0.0 || column >= surface.width() || row >= surface.height()) continue;
+    const float height = surface.height_m.at(static_cast<int>(column), static_cast<int>(row));
+    known += std::isfinite(height) ? 1 : 0;
+  }
+  if (known >= kLeastShare * kPerSide * kPerSide) return;
+  const auto whole = [](double metres) { return std::to_string(std::lround(metres)); };
+  const auto extent = [&](const GeoReference& geo, int width, int height) {
+    return whole(geo.west) + " .. " + whole(geo.x_at(width)) + " east, " + whole(geo.y_at(height)) +
+           " .. " + whole(geo.north) + " north";
+  };
+  throw Error(ErrorKind::kInput,
+              "the surface model covers " + whole(100.0 * known / (kPerSide * kPerSide)) +
+                  " % of the map: its heights lie at " +
+                  extent(surface.geo, surface.width(), surface.height()) + ", the map at " +
+                  extent(map.geo, map.width(), map.height()),
+              {}, "give a surface model of the same place in the same coordinate system");
+}
+
 /// Takes over a surface model: its lowest height becomes 0, and fills its holes.
 void drape_surface(const ElevationMap& surface, Terrain& terrain) {
   float lowest = std::numeric_limits<float>::infinity();
@@ -202,7 +232,10 @@ std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosa
   terrain->draped->geo = {0.0, terrain->options.depth_m, geo.resolution, {}};
   terrain->model = std::make_unique<GroundModel>(seed, terrain->layout, 0.0, terrain->extent.low,
                                                  terrain->extent.high);
-  if (surface) drape_surface(*surface, *terrain);
+  if (surface) {
+    require_same_place(map, *surface);
+    drape_surface(*surface, *terrain);
+  }
   add_round(*terrain);
   draw_ground(*terrain);
   return terrain;
