@@ -22,10 +22,8 @@ constexpr float kUnknown = std::numeric_limits<float>::lowest();
 constexpr float kBeyond = 1e6F;  // metres; finite, for it is interpolated
 constexpr double kSpan = 4.0;    // longest side of a triangle, in largest distances
 constexpr double kAboutM = 5.0;  // reach of what says how high the ground goes on
-static const double kSteep = getenv("SLOPE")
-                                 ? atof(getenv("SLOPE"))
-                                 : 0.7;  // slope (35 degrees) that loose ground does not keep
-constexpr double kStepM = 0.5;           // rise of a steep triangle that is taken for a step
+constexpr double kSteep = 0.7;   // slope (35 degrees) that loose ground does not keep
+constexpr double kStepM = 0.5;   // rise of a steep triangle that is taken for a step
 
 Ground empty_ground(const Extent& extent, double cell_m) {
   Ground ground;
