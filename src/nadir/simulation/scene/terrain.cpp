@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -123,8 +124,9 @@ void require_same_place(const Orthomosaic& map, const ElevationMap& surface) {
   constexpr int kPerSide = 64;
   int known = 0;
   for (int i = 0; i < kPerSide * kPerSide; ++i) {
-    const double x = map.geo.x_at((i % kPerSide + 0.5) / kPerSide * map.width());
-    const double y = map.geo.y_at((i / kPerSide + 0.5) / kPerSide * map.height());
+    const std::div_t place = std::div(i, kPerSide);  // quot rows down, rem across
+    const double x = map.geo.x_at((place.rem + 0.5) / kPerSide * map.width());
+    const double y = map.geo.y_at((place.quot + 0.5) / kPerSide * map.height());
     const PixelCoordinate at = surface.geo.pixel_at(x, y);
     const double column = std::floor(at.column);
     const double row = std::floor(at.row);
