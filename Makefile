@@ -41,7 +41,7 @@ tidy: deps deps-quality  ## run clang-tidy over the library
 asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
 	cmake --preset asan
 	cmake --build --preset asan -j $(JOBS)
-	ctest --preset asan -j $(JOBS)
+	ctest --preset asan -j $(JOBS) || tools/rerun_leak_checks.sh asan
 
 tsan: deps  ## the tests that use threads, under ThreadSanitizer
 	cmake --preset tsan
