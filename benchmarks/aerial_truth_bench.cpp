@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "nadir/aerial_mapping/mapping.hpp"
+#include "nadir/core/rolling_shutter.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/io/metric_frame.hpp"
 #include "nadir/simulation/simulated_flight.hpp"
@@ -73,9 +74,7 @@ std::vector<int> block_of(const SimulatedFlight& flight, const SimulatedWorld& w
 /// The drone as it was, and the flight in the frame of the map.
 struct Truth {
   std::map<std::string, PhotoPose> poses;  ///< local metres
-  /// From the first row to the last the drone flew on by so much, metres.
-  std::map<std::string, Eigen::Vector3d> flown_in_readout;
-  Eigen::Vector3d map_from_local;  ///< a shift: both are grid metres
+  Eigen::Vector3d map_from_local;          ///< a shift: both are grid metres
 };
 
 PhotoSet photos_of(const SimulatedFlight& flight, const std::vector<int>& chosen,
@@ -110,7 +109,6 @@ PhotoSet photos_of(const SimulatedFlight& flight, const std::vector<int>& chosen
     const auto pixels = std::make_shared<Raster<std::uint8_t>>(flight.render(chosen[k]).image);
     photo.load = [pixels] { return *pixels; };
     truth.poses[photo.name] = flight.truth(chosen[k]);
-    truth.flown_in_readout[photo.name] = options.readout_s * flight.velocity(chosen[k]);
     set.photos.push_back(photo);
   }
   return set;
@@ -244,14 +242,15 @@ void print_errors(const AerialMap& map, const SimulatedWorld& world, const Simul
       const double z = map.surface.height_m.at(c, r);
       if (!std::isfinite(z)) continue;
       const PhotoPose& pose = map.poses[map.source.at(column, row)];
-      const auto pixel = pose.camera.project(
-          (pose.map_from_camera.inverse() * Point3<frames::Map>{x, y, z}).vector());
+      const auto pixel = project_row_by_row(
+          pose.camera, pose.map_from_camera.rotation.inverse().toRotationMatrix(),
+          Eigen::Vector3d(x, y, z) - pose.map_from_camera.translation, pose.flown_in_readout);
       if (!pixel) continue;
       const PhotoPose& exact = truth.poses.at(pose.name);
       const Eigen::Vector3d ray = exact.map_from_camera.rotation * exact.camera.ray(*pixel);
       const Eigen::Vector3d centre =
           exact.map_from_camera.translation +
-          ((pixel->y() + 0.5) / exact.camera.height - 0.5) * truth.flown_in_readout.at(pose.name);
+          readout_share(exact.camera, pixel->y()) * exact.flown_in_readout;
       double ground = 0.0;
       Eigen::Vector3d p = centre;
       for (int pass = 0; pass < 10; ++pass) {
@@ -294,10 +293,11 @@ int main(int argc, char** argv) {
   const AerialMap map = map_photos(set, {});
   const AdjustmentReport& report = map.report;
   std::printf(
-      "%zu photos, registered %d, reprojection %.2f px, focal %.1f (true %.1f), ground %.2f m "
-      "below, scale from %s\n",
+      "%zu photos, registered %d, reprojection %.2f px, focal %.1f (true %.1f), readout %.1f ms "
+      "(true %.1f), ground %.2f m below, scale from %s\n",
       set.photos.size(), report.registered, report.reprojection_px, report.cameras[0].model.fx,
-      options.focal_px, report.ground_below_camera_m, to_string(report.scale_source).c_str());
+      options.focal_px, 1e3 * report.cameras[0].readout_s, 1e3 * options.readout_s,
+      report.ground_below_camera_m, to_string(report.scale_source).c_str());
   if (report.position_rms_m)
     std::printf("position residual rms %.2f %.2f %.2f m, time offset %.3f s\n",
                 (*report.position_rms_m)[0], (*report.position_rms_m)[1],

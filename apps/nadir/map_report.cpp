@@ -51,6 +51,7 @@ Json camera_json(const CameraReport& camera) {
           {"prior_focal_px", camera.prior_focal_px},
           {"focal_sigma", camera.focal_sigma},
           {"focal_source", camera.focal_source},
+          {"readout_s", camera.readout_s},
           {"cx", m.cx},
           {"cy", m.cy},
           {"k1", m.k1},

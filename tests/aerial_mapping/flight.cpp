@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <complex>
 
+#include "nadir/core/rolling_shutter.hpp"
+
 namespace nadir::test {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr double kWest = -65.0;
 constexpr double kNorth = 55.0;
 constexpr int kPaintWidth = 2166;
 constexpr int kPaintHeight = 1833;
+constexpr int kPhotoEveryS = 3;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Values on a lattice, blended linearly.
@@ -119,6 +122,8 @@ Flight fly(const std::shared_ptr<const Terrain>& terrain, const FlightPlan& plan
       pose.rotation = Eigen::Quaterniond(map_from_camera_rotation(attitude));
       pose.translation = centre;
       flight.truth.push_back(pose);
+      const double speed = (back ? -1.0 : 1.0) * plan.step_m / kPhotoEveryS;
+      flight.flown.emplace_back(0.0, errors.readout_s * speed, 0.0);
 
       MappingPhoto photo;
       photo.name = plan.prefix + std::to_string(100 + strip * plan.photos + k) + ".jpg";
@@ -132,7 +137,7 @@ Flight fly(const std::shared_ptr<const Terrain>& terrain, const FlightPlan& plan
       told.roll += normal(errors.gimbal_sigma_deg * kDegree);
       photo.prior.attitude = told;
       photo.prior.relative_altitude_m = centre.z();
-      photo.prior.taken_at = Stamp{(strip * 40 + k * 3) * 1000000000LL};
+      photo.prior.taken_at = Stamp{(strip * 40 + k * kPhotoEveryS) * 1000000000LL};
       const double gain = std::exp(normal(errors.exposure_sigma));
       photo.prior.exposure = std::pow(gain, 2.2);
       auto pixels =
@@ -141,7 +146,9 @@ Flight fly(const std::shared_ptr<const Terrain>& terrain, const FlightPlan& plan
         for (int u = 0; u < pixels->width(); ++u) {
           const Eigen::Vector3d ray =
               pose.rotation * flight.camera.ray({static_cast<double>(u), static_cast<double>(v)});
-          const Eigen::Vector3d p = terrain->meet(centre, ray);
+          const Eigen::Vector3d row_centre =
+              centre + readout_share(flight.camera, v) * flight.flown.back();
+          const Eigen::Vector3d p = terrain->meet(row_centre, ray);
           const Eigen::Vector3d rgb = gain * terrain->colour(p.x(), p.y());
           for (int channel = 0; channel < 3; ++channel)
             pixels->at(u, v, channel) =
@@ -170,14 +177,17 @@ MapError compare(const Flight& flight, const AerialMap& map) {
       const double z = map.surface.height_m.at(c, r);
       if (!std::isfinite(z)) continue;
       const PhotoPose& pose = map.poses[map.source.at(column, row)];
-      const auto pixel = pose.camera.project(
-          (pose.map_from_camera.inverse() * Point3<frames::Map>{x, y, z}).vector());
+      const auto pixel = project_row_by_row(
+          pose.camera, pose.map_from_camera.rotation.inverse().toRotationMatrix(),
+          Eigen::Vector3d(x, y, z) - pose.map_from_camera.translation, pose.flown_in_readout);
       if (!pixel) continue;
       const auto photo = std::find_if(flight.set.photos.begin(), flight.set.photos.end(),
                                       [&](const auto& p) { return p.name == pose.name; });
-      const auto& truth = flight.truth[static_cast<std::size_t>(photo - flight.set.photos.begin())];
+      const auto n = static_cast<std::size_t>(photo - flight.set.photos.begin());
+      const Eigen::Vector3d centre =
+          flight.truth[n].translation + readout_share(flight.camera, pixel->y()) * flight.flown[n];
       const Eigen::Vector3d p =
-          flight.terrain->meet(truth.translation, truth.rotation * flight.camera.ray(*pixel));
+          flight.terrain->meet(centre, flight.truth[n].rotation * flight.camera.ray(*pixel));
       shown.emplace_back(x, y);
       real.emplace_back(p.x(), p.y());
       heights.emplace_back(p.x(), p.y(), z - p.z());

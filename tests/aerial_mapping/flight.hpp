@@ -40,14 +40,16 @@ struct FlightErrors {
   double focal_factor = 1.0;    ///< of the stated focal length
   double focal_sigma = 0.02;    ///< as stated
   double k1 = -0.02;
-  double tilt_deg = 3.0;  ///< how far the camera really hangs from the vertical
+  double tilt_deg = 3.0;   ///< how far the camera really hangs from the vertical
+  double readout_s = 0.0;  ///< of a rolling shutter, first row to last
 };
 
 /// Photos of a terrain with everything known about them.
 struct Flight {
   std::shared_ptr<const Terrain> terrain;
   CameraModel camera;
-  std::vector<Transform3<frames::Map, frames::Camera>> truth;  ///< of a photo of the set
+  std::vector<Transform3<frames::Map, frames::Camera>> truth;  ///< of a photo's middle row
+  std::vector<Eigen::Vector3d> flown;  ///< of a photo, metres from its first row to its last
   PhotoSet set;
 };
 

@@ -39,6 +39,7 @@ TEST(PhotoPoses, OwnFormatRoundTrips) {
   PhotoPose b = a;
   b.name = "b.jpg";
   b.camera.fx = 900.0;
+  b.flown_in_readout = {0.125, -0.5, 0.0};
   write_photo_poses(folder / "map.poses.json", std::vector{a, b}, "EPSG:32615");
   const ImportedPoses read = read_photo_poses(folder / "map.poses.json");
   EXPECT_EQ(read.frame, PhotoPoseFrame::kMap);
@@ -47,6 +48,8 @@ TEST(PhotoPoses, OwnFormatRoundTrips) {
   EXPECT_EQ(read.poses[0].camera, a.camera);
   EXPECT_EQ(read.poses[1].camera, b.camera);
   EXPECT_EQ(read.poses[1].map_from_camera.translation, a.map_from_camera.translation);
+  EXPECT_TRUE(read.poses[0].flown_in_readout.isZero());
+  EXPECT_EQ(read.poses[1].flown_in_readout, b.flown_in_readout);
   expect_near(read.poses[0].map_from_camera.rotation.coeffs(), a.map_from_camera.rotation.coeffs(),
               1e-12);
 }

@@ -60,6 +60,7 @@ struct CameraReport {
   CameraModel model;
   double prior_focal_px = 0.0;
   double focal_sigma = 0.0;  ///< of ln f, after the adjustment
+  double readout_s = 0.0;    ///< of its rolling shutter, first row to last; 0 = none or not known
   std::string focal_source;
 };
 

@@ -68,6 +68,7 @@ void IncrementalMapper::State::remember(const PhotoSet& set, const aerial::Recon
   for (std::size_t i = 0; i < set.photos.size(); ++i)
     if (found.model.poses[i].known) known_.poses[set.photos[i].name] = found.model.poses[i];
   known_.cameras = found.model.cameras;
+  known_.readout_s = found.model.readout_s;
   const aerial::Block block = aerial::block_of(found);
   points_ = block.points;
   ground_ = block.ground;
@@ -112,6 +113,7 @@ aerial::Block IncrementalMapper::State::block(const PhotoSet& set) const {
     if (found != known_.poses.end()) {
       view.camera_from_map = found->second.camera_from_map;
       view.centre = found->second.centre;
+      view.flown = found->second.flown;
     } else if (const auto pose = aerial::pose_of_prior(prior)) {
       if (known_.poses.empty()) {
         if (!prior.relative_altitude_m) continue;
@@ -182,13 +184,8 @@ MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo) {
   const aerial::Block now = block(set);
   for (const aerial::View& view : now.views) {
     if (view.provisional) continue;
-    PhotoPose pose;
-    pose.name = set.photos[view.photo].name;
-    pose.camera = view.camera;
-    pose.map_from_camera.rotation =
-        Eigen::Quaterniond(Eigen::Matrix3d(view.camera_from_map.transpose()));
-    pose.map_from_camera.translation = view.centre + anchor_;
-    poses.poses.push_back(pose);
+    poses.poses.push_back(aerial::pose_of(view, set.photos[view.photo].name));
+    poses.poses.back().map_from_camera.translation += anchor_;
   }
   map_.set_poses(std::move(poses.poses), set.crs);
 

@@ -20,7 +20,8 @@ void declare(OptionTable& table, AerialMappingOptions& options) {
                "three times that vertically.",
                "consumer GPS, within one flight");
   table.number(stage + "gimbal_sigma_deg", options.gimbal_sigma_deg, {0.0, 20.0},
-               "Standard deviation of the gimbal's roll and pitch, degrees; 0 = not used.");
+               "Standard deviation of the gimbal's tilts, degrees, at most: less where they agree "
+               "with the block; 0 = not used.");
   table.number(stage + "relative_altitude_sigma_m", options.relative_altitude_sigma_m, {0.0, 100.0},
                "Standard deviation of the height above take-off as height above ground, metres, "
                "once for the block; 0 = not used.");

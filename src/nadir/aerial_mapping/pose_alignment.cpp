@@ -59,6 +59,7 @@ double align_poses(std::vector<PhotoPose>& poses, std::span<const MappingPhoto> 
     auto& p = pose.map_from_camera;
     p.translation = scaled * p.translation + similarity.topRightCorner<3, 1>();
     p.rotation = (rotation * p.rotation).normalized();
+    pose.flown_in_readout = scaled * pose.flown_in_readout;
   }
   const Points residual =
       (scaled * from).colwise() + Eigen::Vector3d(similarity.topRightCorner<3, 1>()) - to;

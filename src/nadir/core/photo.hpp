@@ -66,7 +66,9 @@ struct Photo {
 struct PhotoPose {
   std::string name;
   CameraModel camera;
-  Transform3<frames::Map, frames::Camera> map_from_camera;
+  Transform3<frames::Map, frames::Camera> map_from_camera;  ///< of the middle row
+  /// Metres, map axes, that the camera flies from the first row to the last (rolling_shutter.hpp).
+  Eigen::Vector3d flown_in_readout = Eigen::Vector3d::Zero();
 };
 
 }  // namespace nadir

@@ -21,6 +21,7 @@ PhotoPose from_earth(const PhotoPose& pose, const Eigen::Vector3d& geocentric_ce
   result.map_from_camera.translation = frame.to_map(place).vector();
   result.map_from_camera.rotation =
       (Eigen::Quaterniond(map_from_frame) * pose.map_from_camera.rotation).normalized();
+  result.flown_in_readout = map_from_frame * pose.flown_in_readout;
   return result;
 }
 

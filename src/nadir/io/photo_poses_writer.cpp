@@ -31,6 +31,8 @@ void write_photo_poses(const std::filesystem::path& path, std::span<const PhotoP
                       {"camera", camera},
                       {"position", {t.x(), t.y(), t.z()}},
                       {"quaternion", {q.x(), q.y(), q.z(), q.w()}}});
+    const Eigen::Vector3d& flown = pose.flown_in_readout;
+    if (!flown.isZero()) photos.back()["flown_in_readout"] = {flown.x(), flown.y(), flown.z()};
   }
   Json document{{"format", "nadir photo poses 1"}, {"crs", crs}};
   document["cameras"] = Json::array();

@@ -8,6 +8,7 @@
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/core/random.hpp"
+#include "nadir/core/rolling_shutter.hpp"
 #include "nadir/simulation/sensing/camera_view.hpp"
 #include "nadir/simulation/sensing/draw_index.hpp"
 #include "nadir/simulation/sensing/tone.hpp"
@@ -123,6 +124,7 @@ PhotoPose SimulatedFlight::truth(int photo) const {
       waypoint.position.vector() + Eigen::Vector3d(-0.25 * drift * std::sin(waypoint.yaw),
                                                    0.25 * drift * std::cos(waypoint.yaw),
                                                    0.2 * climb);
+  pose.flown_in_readout = options_.readout_s * velocity(photo);
   return pose;
 }
 
@@ -188,7 +190,6 @@ PhotoMetadata SimulatedFlight::metadata(int photo) const {
 
 Photo SimulatedFlight::render(int photo) const {
   const PhotoPose pose = truth(photo);
-  const Eigen::Vector3d speed = velocity(photo);
   const Stamp stamp = plan_.waypoints[static_cast<std::size_t>(photo)].stamp;
   const simulation::Movers movers =
       scene_.scene().traffic(static_cast<double>(stamp.nanoseconds - kTakeOff) * 1e-9);
@@ -196,8 +197,7 @@ Photo SimulatedFlight::render(int photo) const {
       scene_.scene(), *rays_,
       [&](int row) {
         simulation::CameraPose at = pose.map_from_camera;
-        const double share = (row + 0.5) / plan_.camera.height - 0.5;
-        at.translation += share * options_.readout_s * speed;
+        at.translation += readout_share(plan_.camera, row) * pose.flown_in_readout;
         return at;
       },
       &movers);

@@ -80,6 +80,7 @@ Block given_block(const PhotoSet& set) {
     view.camera_from_map =
         pose.map_from_camera.rotation.normalized().toRotationMatrix().transpose();
     view.centre = pose.map_from_camera.translation;
+    view.flown = pose.flown_in_readout;
     block.views.push_back(view);
     if (set.photos[i].prior.relative_altitude_m)
       grounds.push_back(view.centre.z() - *set.photos[i].prior.relative_altitude_m);

@@ -37,13 +37,7 @@ void fill_views(const PhotoSet& set, const Block& block, const Ground& ground, A
   std::vector<double> pixels;
   for (const View& view : block.views) {
     const std::string& name = set.photos[view.photo].name;
-    PhotoPose pose;
-    pose.name = name;
-    pose.camera = view.camera;
-    pose.map_from_camera.rotation =
-        Eigen::Quaterniond(Eigen::Matrix3d(view.camera_from_map.transpose()));
-    pose.map_from_camera.translation = view.centre;
-    map.poses.push_back(pose);
+    map.poses.push_back(pose_of(view, name));
     PhotoReport& photo = report_of(name, map.report);
     photo.registered = !view.provisional;
     photo.gain = 0.299 * view.gain[0] + 0.587 * view.gain[1] + 0.114 * view.gain[2];
@@ -293,6 +287,7 @@ Block block_of(const Reconstruction& found) {
     view.camera = found.model.camera(i);
     view.camera_from_map = pose.camera_from_map;
     view.centre = pose.centre;
+    view.flown = pose.flown;
     block.views.push_back(view);
   }
   const auto& landmarks = found.surface.empty() ? found.model.landmarks : found.surface;
@@ -321,6 +316,7 @@ void fill_report(const PhotoSet& set, const Reconstruction& found,
     camera.model = found.model.cameras[i];
     camera.prior_focal_px = set.cameras[i].focal.focal_px;
     camera.focal_source = set.cameras[i].focal.source;
+    camera.readout_s = found.model.readout_s[i];
     if (i < found.focal_sigma.size()) camera.focal_sigma = found.focal_sigma[i];
     report.cameras.push_back(camera);
   }

@@ -70,7 +70,7 @@ std::optional<Patch> patch_of(const SmallView& small, const Eigen::Vector3d& poi
     const int north = k / kSide - kSide / 2;
     const Eigen::Vector3d offset{east * sample, north * sample, 0.0};
     const View& view = *small.view;
-    const auto pixel = view.camera.project(view.camera_from_map * (point + offset - view.centre));
+    const auto pixel = view.project(point + offset);
     if (!pixel) return std::nullopt;
     const double u = (pixel->x() + 0.5) * small.scale - 0.5;
     const double v = (pixel->y() + 0.5) * small.scale - 0.5;

@@ -35,9 +35,7 @@ cv::Mat sample(const Scene& scene, std::size_t index, const cv::Rect& part) {
     for (int column = 0; column < part.width; ++column) {
       const double x = scene.geo.x_at(part.x + column + 0.5);
       const double y = scene.geo.y_at(part.y + row + 0.5);
-      const Eigen::Vector3d p = view.camera_from_map *
-                                (Eigen::Vector3d(x, y, scene.ground.height_at(x, y)) - view.centre);
-      const auto pixel = view.camera.project(p);
+      const auto pixel = view.project({x, y, scene.ground.height_at(x, y)});
       u.at<float>(row, column) = pixel ? static_cast<float>((pixel->x() + 0.5) * su - 0.5) : -1.0F;
       v.at<float>(row, column) = pixel ? static_cast<float>((pixel->y() + 0.5) * sv - 0.5) : -1.0F;
     }

@@ -34,6 +34,17 @@ bool is_hidden(const View& view, double cell, const Eigen::Vector3d& point, Heig
 
 }  // namespace
 
+PhotoPose pose_of(const View& view, const std::string& name) {
+  PhotoPose pose;
+  pose.name = name;
+  pose.camera = view.camera;
+  pose.map_from_camera.rotation =
+      Eigen::Quaterniond(Eigen::Matrix3d(view.camera_from_map.transpose()));
+  pose.map_from_camera.translation = view.centre;
+  pose.flown_in_readout = view.flown;
+  return pose;
+}
+
 std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
                               const Eigen::Vector3d& point) {
   const Eigen::Vector3d ray = point - view.centre;
@@ -45,7 +56,7 @@ std::optional<Sight> sight_of(const View& view, const ViewLimits& limits,
   const double radius =
       std::hypot(p.x() / p.z() * camera.fx, p.y() / p.z() * camera.fy) / (0.5 * diagonal);
   if (radius > 1.3) return std::nullopt;
-  const auto pixel = camera.project(p);
+  const auto pixel = view.project(point);
   if (!pixel) return std::nullopt;
   Sight sight{pixel->x(), pixel->y(), 0.0, 0.0};
   const double left = std::min(sight.u, camera.width - 1.0 - sight.u);

@@ -9,11 +9,14 @@
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "nadir/aerial_mapping/ortho/ground.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
 #include "nadir/core/camera.hpp"
+#include "nadir/core/photo.hpp"
+#include "nadir/core/rolling_shutter.hpp"
 
 namespace nadir::aerial {
 
@@ -22,14 +25,23 @@ struct View {
   std::size_t photo = 0;  ///< number in the photo set
   CameraModel camera;
   Eigen::Matrix3d camera_from_map = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  std::array<float, 3> gain{1.0F, 1.0F, 1.0F};  ///< of red, green, blue
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the middle row
+  Eigen::Vector3d flown = Eigen::Vector3d::Zero();   ///< in the readout (rolling_shutter.hpp)
+  std::array<float, 3> gain{1.0F, 1.0F, 1.0F};       ///< of red, green, blue
   /// The camera's pixels are shrunk by this before they are sampled, so that one is about as large
   /// as a pixel of the map.
   double shrink = 1.0;
   bool provisional = false;
   bool blurred = false;  ///< gives colour only where no sharp view does
+
+  /// Where the view shows a point; nothing behind the camera.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const {
+    return project_row_by_row(camera, camera_from_map, point - centre, flown);
+  }
 };
+
+/// The pose of a view, in the frame of the views.
+PhotoPose pose_of(const View& view, const std::string& name);
 
 /// Which part of a photo is used.
 struct ViewLimits {

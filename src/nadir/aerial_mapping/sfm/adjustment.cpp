@@ -19,6 +19,7 @@ namespace {
 constexpr double kIndependent = 200.0;
 constexpr double kHeadingSigma = 10.0 * std::numbers::pi / 180.0;  // compass
 constexpr double kTimeOffsetSigma = 0.5;                           // s
+constexpr double kReadoutSigma = 0.03;                             // s: of common sensors
 constexpr double kBiasSigma = 100.0;                               // m: another vertical datum
 constexpr double kUnheldFocalSigma = 10.0;                         // of ln f: no prior
 constexpr double kPositionTail = 3.0;                              // sigma
@@ -30,6 +31,7 @@ constexpr int kFewestForOffset = 6;
 struct Blocks {
   std::vector<std::array<double, 6>> poses;
   std::vector<std::array<double, 3>> lenses;
+  std::vector<double> readouts;  // of the cameras, s
   std::vector<std::array<double, 3>> points;
   std::vector<std::size_t> landmarks;  // of `points`
   std::vector<std::array<double, 3>> control;
@@ -92,6 +94,7 @@ Blocks blocks_of(const Model& model, const AdjustmentState& state,
   }
   for (const CameraModel& camera : model.cameras)
     blocks.lenses.push_back({std::log(camera.fx), camera.k1, camera.k2});
+  blocks.readouts = model.readout_s;
   blocks.landmarks = landmarks;
   for (const std::size_t i : landmarks) {
     const Eigen::Vector3d& p = model.landmarks[i].position;
@@ -114,8 +117,10 @@ class Adjustment {
         set_(set),
         options_(options),
         plan_(plan),
+        velocities_(velocities_of(set.photos)),
         blocks_(blocks_of(model, state, choose_landmarks(model, plan.cell_share))) {
     add_observations();
+    add_readouts();
     add_positions();
     add_attitudes();
     add_ground();
@@ -166,6 +171,7 @@ class Adjustment {
   }
 
   const Blocks& blocks() const { return blocks_; }
+  const Eigen::Vector3d& velocity(std::size_t photo) const { return velocities_[photo]; }
 
  private:
   ceres::LossFunction* loss(double weight) const {
@@ -187,12 +193,33 @@ class Adjustment {
         if (landmark.used[k] == 0) continue;
         const Observation& seen = landmark.track[k];
         const CameraModel& camera = model_.camera(seen.photo);
-        problem_.AddResidualBlock(ReprojectionTerm::create(seen.u, seen.v, camera.cx, camera.cy),
-                                  loss(weight_[seen.photo]), blocks_.poses[seen.photo].data(),
-                                  blocks_.lenses[model_.camera_of[seen.photo]].data(),
-                                  blocks_.points[n].data());
+        const std::size_t of = model_.camera_of[seen.photo];
+        problem_.AddResidualBlock(
+            ReprojectionTerm::create(seen.u, seen.v, camera, motion(seen.photo)),
+            loss(weight_[seen.photo]), blocks_.poses[seen.photo].data(), blocks_.lenses[of].data(),
+            blocks_.points[n].data(), readout(of));
       }
     }
+  }
+
+  /// Metres for each second of readout(); where that is not adjusted, for the whole of it.
+  const Eigen::Vector3d& motion(std::size_t photo) const {
+    return plan_.free_readout ? velocities_[photo] : model_.poses[photo].flown;
+  }
+  double* readout(std::size_t camera) {
+    return plan_.free_readout ? &blocks_.readouts[camera] : &whole_readout_;
+  }
+
+  void add_readouts() {
+    if (problem_.HasParameterBlock(&whole_readout_))
+      problem_.SetParameterBlockConstant(&whole_readout_);
+    for (double& readout : blocks_.readouts)
+      if (problem_.HasParameterBlock(&readout))
+        problem_.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<SoftHold<1>, 1, 1>(
+                new SoftHold<1>{Eigen::Matrix<double, 1, 1>::Zero(),
+                                Eigen::Matrix<double, 1, 1>::Constant(kReadoutSigma), 0}),
+            nullptr, &readout);
   }
 
   bool takes_part(std::size_t photo) const {
@@ -201,16 +228,15 @@ class Adjustment {
 
   void add_positions() {
     if (!plan_.use_positions) return;
-    const std::vector<Eigen::Vector3d> velocities = velocities_of(set_.photos);
     int with_velocity = 0;
     for (std::size_t i = 0; i < set_.photos.size(); ++i) {
       const PhotoPrior& prior = set_.photos[i].prior;
       if (!prior.position || !takes_part(i)) continue;
       const double xy = prior.horizontal_sigma_m.value_or(options_.gps_sigma_m);
       const double z = prior.vertical_sigma_m.value_or(3.0 * xy);
-      if (velocities[i].norm() > 0.5) ++with_velocity;
+      if (velocities_[i].norm() > 0.5) ++with_velocity;
       problem_.AddResidualBlock(
-          PositionTerm::create(prior.position->vector(), velocities[i], {xy, xy, z}),
+          PositionTerm::create(prior.position->vector(), velocities_[i], {xy, xy, z}),
           new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data(), &blocks_.offset,
           blocks_.bias.data());
     }
@@ -233,20 +259,19 @@ class Adjustment {
   }
 
   void add_attitudes() {
-    const double sigma = options_.gimbal_sigma_deg * std::numbers::pi / 180.0;
     for (std::size_t i = 0; i < set_.photos.size(); ++i) {
       const auto& attitude = set_.photos[i].prior.attitude;
       if (!takes_part(i)) continue;
-      if (attitude && sigma > 0.0) {
+      if (attitude && plan_.gimbal_sigma.sideward_rad > 0.0) {
         const Eigen::Matrix3d camera_from_map = map_from_camera_rotation(*attitude).transpose();
-        problem_.AddResidualBlock(VerticalTerm::create(-camera_from_map.col(2), sigma),
+        problem_.AddResidualBlock(VerticalTerm::create(-camera_from_map.col(2), plan_.gimbal_sigma),
                                   new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
       }
-      if (!attitude && plan_.nadir_sigma_deg > 0.0)
-        problem_.AddResidualBlock(
-            VerticalTerm::create(Eigen::Vector3d::UnitZ(),
-                                 plan_.nadir_sigma_deg * std::numbers::pi / 180.0),
-            new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
+      if (!attitude && plan_.nadir_sigma_deg > 0.0) {
+        const double sigma = plan_.nadir_sigma_deg * std::numbers::pi / 180.0;
+        problem_.AddResidualBlock(VerticalTerm::create(Eigen::Vector3d::UnitZ(), {sigma, sigma}),
+                                  new ceres::CauchyLoss(kPositionTail), blocks_.poses[i].data());
+      }
       if (attitude && plan_.use_heading) {
         const Eigen::Matrix3d map_from_camera = map_from_camera_rotation(*attitude);
         problem_.AddResidualBlock(
@@ -334,10 +359,11 @@ class Adjustment {
         const auto n = static_cast<std::size_t>(photo - set_.photos.begin());
         if (!takes_part(n)) continue;
         const CameraModel& camera = model_.camera(n);
-        problem_.AddResidualBlock(ReprojectionTerm::create(mark.u, mark.v, camera.cx, camera.cy),
+        const std::size_t of = model_.camera_of[n];
+        problem_.AddResidualBlock(ReprojectionTerm::create(mark.u, mark.v, camera, motion(n)),
                                   new ceres::HuberLoss(2.0), blocks_.poses[n].data(),
-                                  blocks_.lenses[model_.camera_of[n]].data(),
-                                  blocks_.control[i].data());
+                                  blocks_.lenses[of].data(), blocks_.control[i].data(),
+                                  readout(of));
       }
       if (!problem_.HasParameterBlock(blocks_.control[i].data())) continue;
       const double xy = std::max(1e-4, point.horizontal_sigma_m);
@@ -358,7 +384,9 @@ class Adjustment {
   const PhotoSet& set_;
   const AerialMappingOptions& options_;
   const AdjustmentPlan& plan_;
+  std::vector<Eigen::Vector3d> velocities_;
   Blocks blocks_;
+  double whole_readout_ = 1.0;
   ceres::Problem problem_;
   std::vector<double> weight_;
 };
@@ -372,19 +400,64 @@ std::vector<Eigen::Vector3d> velocities_of(const std::vector<MappingPhoto>& phot
     if (photos[i].prior.position && photos[i].prior.taken_at)
       by_camera[photos[i].camera].push_back(i);
   constexpr double kLongestGap = 20.0;  // s: beyond, it is another strip or another flight
+  constexpr double kTurn = 0.5;         // change of velocity, in velocities, that is a turn
   for (auto& [camera, order] : by_camera) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return *photos[a].prior.taken_at < *photos[b].prior.taken_at;
     });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const PhotoPrior& before = photos[order[k > 0 ? k - 1 : k]].prior;
-      const PhotoPrior& after = photos[order[k + 1 < order.size() ? k + 1 : k]].prior;
-      const double seconds = after.taken_at->seconds() - before.taken_at->seconds();
+    // Mean velocity from the k-th photo to the next.
+    std::vector<std::optional<Eigen::Vector3d>> legs(order.size());
+    for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+      const PhotoPrior& from = photos[order[k]].prior;
+      const PhotoPrior& to = photos[order[k + 1]].prior;
+      const double seconds = to.taken_at->seconds() - from.taken_at->seconds();
       if (seconds > 0.5 && seconds < kLongestGap)
-        velocities[order[k]] = (after.position->vector() - before.position->vector()) / seconds;
+        legs[k] = (to.position->vector() - from.position->vector()) / seconds;
+    }
+    const auto leg = [&](std::size_t k) {
+      return k < legs.size() ? legs[k] : std::optional<Eigen::Vector3d>{};
+    };
+    const auto go_on = [&](const std::optional<Eigen::Vector3d>& a,
+                           const std::optional<Eigen::Vector3d>& b) {
+      return a && b && (*a - *b).norm() < kTurn * std::max(a->norm(), b->norm());
+    };
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      Eigen::Vector3d& velocity = velocities[order[k]];
+      const auto before = leg(k - 1);  // k - 1 of the first wraps: no such leg
+      const auto after = leg(k);
+      // At the end of a strip one of the two legs is the turn: the strip's is the one that goes
+      // on as the leg beyond it.
+      const bool strip_before = go_on(before, leg(k - 2));
+      const bool strip_after = go_on(after, leg(k + 1));
+      if (before && after && go_on(before, after))
+        velocity = 0.5 * (*before + *after);
+      else if (before && (!after || (strip_before && !strip_after)))
+        velocity = *before;
+      else if (after && (!before || (strip_after && !strip_before)))
+        velocity = *after;
     }
   }
   return velocities;
+}
+
+std::optional<GimbalSigma> gimbal_residuals(const Model& model, const PhotoSet& set, int fewest) {
+  std::vector<double> roll;
+  std::vector<double> pitch;
+  for (std::size_t i = 0; i < set.photos.size(); ++i) {
+    const auto& attitude = set.photos[i].prior.attitude;
+    if (!attitude || !model.poses[i].known) continue;
+    const Eigen::Matrix3d said = map_from_camera_rotation(*attitude).transpose();
+    const Eigen::Vector3d left = said.col(2) - model.poses[i].camera_from_map.col(2);
+    roll.push_back(std::abs(left.x()));
+    pitch.push_back(std::hypot(left.y(), left.z()));
+  }
+  if (static_cast<int>(roll.size()) < fewest) return std::nullopt;
+  const auto sigma = [](std::vector<double>& magnitudes) {
+    const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+    std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+    return 1.4826 * *middle;  // of normal errors
+  };
+  return GimbalSigma{sigma(roll), sigma(pitch)};
 }
 
 void adjust(Model& model, AdjustmentState& state, const PhotoSet& set,
@@ -402,7 +475,10 @@ void adjust(Model& model, AdjustmentState& state, const PhotoSet& set,
         angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
                     : Eigen::Matrix3d::Identity();
     model.poses[i].centre = {b[3], b[4], b[5]};
+    if (plan.free_readout)
+      model.poses[i].flown = blocks.readouts[model.camera_of[i]] * adjustment.velocity(i);
   }
+  model.readout_s = blocks.readouts;
   for (std::size_t i = 0; i < model.cameras.size(); ++i) {
     model.cameras[i].fx = model.cameras[i].fy = std::exp(blocks.lenses[i][0]);
     model.cameras[i].k1 = blocks.lenses[i][1];

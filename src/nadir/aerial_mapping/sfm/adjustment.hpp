@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nadir/aerial_mapping/options.hpp"
@@ -11,14 +12,23 @@
 
 namespace nadir::aerial {
 
+/// Standard deviations of the tilts that gimbals say, along the rows of the image (sideward) and
+/// across them (forward, the pitch of a gimbal); 0 = not used.
+struct GimbalSigma {
+  double sideward_rad = 0.0;
+  double forward_rad = 0.0;
+};
+
 /// Which terms an adjustment has; those of the priors follow from the photos and the options.
 struct AdjustmentPlan {
   double loss_px = 1.0;       ///< where the errors of an observation begin to weigh less
   bool heavy_tail = false;    ///< Cauchy instead of Huber: for a rough start
   double flat_sigma_m = 0.0;  ///< holds the points near the ground; 0 = off
   bool hold_cameras = false;  ///< focal length and distortion stay as they are
+  bool free_readout = false;  ///< of rolling shutters; else the poses keep what they flew in it
   bool use_positions = true;
   bool use_heading = false;  ///< the gimbals' yaw: only where nothing else gives the heading
+  GimbalSigma gimbal_sigma;
   /// Sigma of a vertical optical axis where no gimbal says better, degrees; 0 = off.
   double nadir_sigma_deg = 0.0;
   double gauge_sigma_m = 0.0;      ///< holds all cameras softly where they are; 0 = off
@@ -40,6 +50,10 @@ struct AdjustmentState {
 /// Ground velocity of each photo (m/s) by its neighbours in time of the same camera; zero where
 /// unknown.
 std::vector<Eigen::Vector3d> velocities_of(const std::vector<MappingPhoto>& photos);
+
+/// What the gimbals of the known photos leave of an adjustment's attitudes: 1.48 medians of the
+/// magnitudes; nothing where fewer than `fewest` have said something.
+std::optional<GimbalSigma> gimbal_residuals(const Model& model, const PhotoSet& set, int fewest);
 
 /// Least squares over poses, cameras and points: equations 2 to 7 of docs/aerial-mapping.md. Only
 /// known poses and valid landmarks take part.

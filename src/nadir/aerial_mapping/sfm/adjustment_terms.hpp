@@ -6,18 +6,26 @@
 
 #include <Eigen/Core>
 
+#include "nadir/aerial_mapping/sfm/adjustment.hpp"
+#include "nadir/core/rolling_shutter.hpp"
+
 namespace nadir::aerial {
 
 // Parameter blocks: pose = rotation vector of camera_from_map and centre (6), lens = ln f, k1, k2
-// (3), point (3). Equation numbers are those of docs/aerial-mapping.md.
+// (3), readout of its rolling shutter in seconds (1), point (3). Equation numbers are those of
+// docs/aerial-mapping.md.
 
-/// [2] Pixel error of an observation, by the projection [1].
+/// [2] Pixel error of an observation, by the projection [1]. `motion` is where the camera of this
+/// row was against the middle row's, metres for each second of readout.
 struct ReprojectionTerm {
   double u, v, cx, cy;
+  Eigen::Vector3d motion;
 
   template <class T>
-  bool operator()(const T* pose, const T* lens, const T* point, T* residual) const {
-    const T relative[3] = {point[0] - pose[3], point[1] - pose[4], point[2] - pose[5]};
+  bool operator()(const T* pose, const T* lens, const T* point, const T* readout,
+                  T* residual) const {
+    T relative[3];
+    for (int k = 0; k < 3; ++k) relative[k] = point[k] - pose[3 + k] - readout[0] * motion[k];
     T p[3];
     ceres::AngleAxisRotatePoint(pose, relative, p);
     if (p[2] < T(1e-6)) return false;
@@ -29,9 +37,10 @@ struct ReprojectionTerm {
     residual[1] = scale * y + T(cy - v);
     return true;
   }
-  static ceres::CostFunction* create(double u, double v, double cx, double cy) {
-    return new ceres::AutoDiffCostFunction<ReprojectionTerm, 2, 6, 3, 3>(
-        new ReprojectionTerm{u, v, cx, cy});
+  static ceres::CostFunction* create(double u, double v, const CameraModel& camera,
+                                     const Eigen::Vector3d& velocity) {
+    return new ceres::AutoDiffCostFunction<ReprojectionTerm, 2, 6, 3, 3, 1>(
+        new ReprojectionTerm{u, v, camera.cx, camera.cy, readout_share(camera, v) * velocity});
   }
 };
 
@@ -55,17 +64,19 @@ struct PositionTerm {
 /// [5] The vertical as the camera sees it against the gimbal's pitch and roll; its yaw has no part.
 struct VerticalTerm {
   Eigen::Vector3d down_in_camera;
-  double sigma_rad;
+  Eigen::Vector3d sigma_rad;
 
   template <class T>
   bool operator()(const T* pose, T* residual) const {
     const T down[3] = {T(0.0), T(0.0), T(-1.0)};
     T seen[3];
     ceres::AngleAxisRotatePoint(pose, down, seen);
-    for (int k = 0; k < 3; ++k) residual[k] = (seen[k] - down_in_camera[k]) / T(sigma_rad);
+    for (int k = 0; k < 3; ++k) residual[k] = (seen[k] - down_in_camera[k]) / T(sigma_rad[k]);
     return true;
   }
-  static ceres::CostFunction* create(const Eigen::Vector3d& down, double sigma_rad) {
+  /// A sideward tilt moves the vertical along the rows (x), a forward one along the columns.
+  static ceres::CostFunction* create(const Eigen::Vector3d& down, const GimbalSigma& sigma) {
+    const Eigen::Vector3d sigma_rad{sigma.sideward_rad, sigma.forward_rad, sigma.forward_rad};
     return new ceres::AutoDiffCostFunction<VerticalTerm, 3, 6>(new VerticalTerm{down, sigma_rad});
   }
 };

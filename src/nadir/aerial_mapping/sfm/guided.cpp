@@ -73,7 +73,7 @@ bool strip_of(const Model& model, std::size_t photo, std::size_t other, const Fe
               double lowest, double highest, Strip& strip) {
   const Eigen::Vector3d ray =
       model.direction(photo, static_cast<double>(feature.u), static_cast<double>(feature.v));
-  const Eigen::Vector3d& centre = model.poses[photo].centre;
+  const Eigen::Vector3d centre = model.centre_at(photo, static_cast<double>(feature.v));
   if (ray.z() > -0.2 || highest >= centre.z()) return false;
   const auto far = model.project(other, centre + ray * ((lowest - centre.z()) / ray.z()));
   const auto near = model.project(other, centre + ray * ((highest - centre.z()) / ray.z()));

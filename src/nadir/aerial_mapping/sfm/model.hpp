@@ -8,13 +8,15 @@
 
 #include "nadir/aerial_mapping/sfm/tracks.hpp"
 #include "nadir/core/camera.hpp"
+#include "nadir/core/rolling_shutter.hpp"
 
 namespace nadir::aerial {
 
 /// Where a photo was taken from.
 struct Pose {
   Eigen::Matrix3d camera_from_map = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the middle row
+  Eigen::Vector3d flown = Eigen::Vector3d::Zero();   ///< in the readout (rolling_shutter.hpp)
   bool known = false;
 };
 
@@ -36,6 +38,7 @@ struct Landmark {
 /// photo set, sorted by name.
 struct Model {
   std::vector<CameraModel> cameras;
+  std::vector<double> readout_s;  ///< of a camera's rolling shutter: first row to last; 0 = global
   std::vector<std::size_t> camera_of;  ///< of a photo
   std::vector<Pose> poses;             ///< of a photo
   std::vector<Landmark> landmarks;
@@ -45,7 +48,12 @@ struct Model {
   /// Where the photo sees the point; nothing behind the camera.
   std::optional<Eigen::Vector2d> project(std::size_t photo, const Eigen::Vector3d& point) const {
     const Pose& pose = poses[photo];
-    return camera(photo).project(pose.camera_from_map * (point - pose.centre));
+    return project_row_by_row(camera(photo), pose.camera_from_map, point - pose.centre, pose.flown);
+  }
+
+  /// Where the camera was when it read the row.
+  Eigen::Vector3d centre_at(std::size_t photo, double v) const {
+    return poses[photo].centre + readout_share(camera(photo), v) * poses[photo].flown;
   }
 
   /// Direction, in the map, in which the photo sees a pixel.

@@ -289,6 +289,7 @@ void transform(Model& model, double scale, const Eigen::Matrix3d& rotation,
     if (!pose.known) continue;
     pose.camera_from_map = pose.camera_from_map * rotation.transpose();
     pose.centre = scale * (rotation * pose.centre) + shift;
+    pose.flown = scale * (rotation * pose.flown);
   }
   for (Landmark& landmark : model.landmarks)
     landmark.position = scale * (rotation * landmark.position) + shift;

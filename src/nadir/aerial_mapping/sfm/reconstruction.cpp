@@ -25,6 +25,8 @@ constexpr std::size_t kNeighbours = 8;    // that a new photo moves
 constexpr double kNarrow = 0.15;          // width of a strip in lengths
 constexpr double kNadirSigmaDeg = 10.0;
 constexpr std::size_t kFewestControl = 3;
+constexpr int kFewestGimbals = 10;
+constexpr double kSteadyGimbalRad = 0.2 * std::numbers::pi / 180.0;  // no gimbal is better
 constexpr double kTiltHoldsFocalRad = 0.17;  // usual tilt from which a block holds its focal length
 
 double median_height(const Model& model, double ground) {
@@ -76,6 +78,8 @@ class Reconstructor {
   Reconstructor(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                 const std::vector<VerifiedPair>& pairs, const AerialMappingOptions& options)
       : set_(set), features_(features), pairs_(pairs), options_(options) {
+    const double gimbal = options.gimbal_sigma_deg * std::numbers::pi / 180.0;
+    plan_.gimbal_sigma = {gimbal, gimbal};
     result_.model = start_model(set, features, pairs, options.min_pair_inliers);
     PhotoPairs links;
     for (const VerifiedPair& pair : pairs)
@@ -105,6 +109,7 @@ class Reconstructor {
     reseat(group);
     if (take_control_points(model(), state(), set_)) placement_.scale = true;
     round(2.0, 30);
+    weigh_gimbals();
     round(1.5, 30);
     drop_lost();
     finish();
@@ -114,6 +119,9 @@ class Reconstructor {
   Reconstruction from_known(const KnownPoses& known) {
     std::copy_n(known.cameras.begin(), std::min(known.cameras.size(), model().cameras.size()),
                 model().cameras.begin());
+    std::copy_n(known.readout_s.begin(), std::min(known.readout_s.size(), model().readout_s.size()),
+                model().readout_s.begin());
+    const auto velocities = velocities_of(set_.photos);
     std::vector<std::size_t> fresh;
     for (std::size_t i = 0; i < set_.photos.size(); ++i) {
       const auto found = known.poses.find(set_.photos[i].name);
@@ -127,6 +135,8 @@ class Reconstructor {
     std::erase_if(fresh, [&](std::size_t i) {
       return !resect(model(), i, kFewestObservations, 8.0, seed_of(set_.photos[i].name));
     });
+    for (const std::size_t i : fresh)
+      model().poses[i].flown = model().readout_s[model().camera_of[i]] * velocities[i];
     plan_.hold_cameras = true;
     plan_.held.assign(set_.photos.size(), 1);
     for (const std::size_t i : fresh) {
@@ -151,6 +161,7 @@ class Reconstructor {
       pose.camera_from_map =
           given.map_from_camera.rotation.normalized().toRotationMatrix().transpose();
       pose.centre = given.map_from_camera.translation;
+      pose.flown = given.flown_in_readout;
       pose.known = true;
     }
     result_.components = {std::vector<std::size_t>(set_.photos.size())};
@@ -184,12 +195,26 @@ class Reconstructor {
     if (!positions) plan_.gauge_sigma_m = median_height(model(), state().ground);
     levelled_ = attitudes;
     const bool strip = !widths || widths->second < kNarrow * widths->first;
+    is_wide_ = positions && !strip;
     if (!attitudes && (!positions || strip)) plan_.nadir_sigma_deg = kNadirSigmaDeg;
     if (positions && strip) {
       result_.strip_turn_sigma_deg = attitudes ? options_.gimbal_sigma_deg : kNadirSigmaDeg;
       result_.strip_held_by_gimbals = attitudes;
     }
     hold_focal_of_flat_block();
+  }
+
+  /// Gimbals weigh as much as they agree with the block: good ones then keep it from bending, which
+  /// a row of photos that look straight down resists little, and with it the scale of the ground.
+  void weigh_gimbals() {
+    if (!is_wide_ || plan_.gimbal_sigma.sideward_rad <= 0.0) return;
+    const auto left = gimbal_residuals(model(), set_, kFewestGimbals);
+    if (!left) return;
+    const auto weighed = [](double residual, double said) {
+      return std::min(said, std::max(kSteadyGimbalRad, residual));
+    };
+    plan_.gimbal_sigma = {weighed(left->sideward_rad, plan_.gimbal_sigma.sideward_rad),
+                          weighed(left->forward_rad, plan_.gimbal_sigma.forward_rad)};
   }
 
   /// A block that looks straight down does not determine its focal length: its prior does.
@@ -244,6 +269,7 @@ class Reconstructor {
     plan.loss_px = std::max(1.0, 0.5 * gate_px);
     plan.max_iterations = iterations;
     plan.hold_cameras = gate_px > 4.0;
+    plan.free_readout = !plan.hold_cameras && is_wide_;
     plan.cell_share = gate_px > 2.0 ? 1 : 2;
     adjust(model(), state(), set_, options_, plan);
   }
@@ -335,6 +361,7 @@ class Reconstructor {
 
   void finish() {
     AdjustmentPlan thinned = plan_;
+    thinned.free_readout = is_wide_;
     thinned.cell_share = 1;
     result_.focal_sigma = focal_sigmas(model(), state(), set_, options_, thinned);
     if (!levelled_ && !(placement_.position && placement_.scale)) level(model());
@@ -419,6 +446,7 @@ class Reconstructor {
   Placement placement_;
   AdjustmentPlan plan_;
   bool levelled_ = false;
+  bool is_wide_ = false;  // positions spread in both directions
 };
 
 }  // namespace
@@ -436,6 +464,7 @@ Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& feature
     camera.cy = (prior.height - 1) / 2.0;
     model.cameras.push_back(camera);
   }
+  model.readout_s.assign(set.cameras.size(), 0.0);
   for (const MappingPhoto& photo : set.photos) model.camera_of.push_back(photo.camera);
   model.poses.resize(set.photos.size());
   std::vector<VerifiedPair> links;

@@ -52,6 +52,7 @@ Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFea
 struct KnownPoses {
   std::map<std::string, Pose> poses;  ///< by the photos' names
   std::vector<CameraModel> cameras;   ///< as in the set, possibly fewer
+  std::vector<double> readout_s;      ///< of the cameras
 };
 
 /// Adds the photos that have no pose yet to those that have: their poses from the points of the

@@ -24,7 +24,7 @@ bool nearest_to_rays(const Model& model, const Landmark& landmark,
     if (landmark.used[k] == 0) continue;
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - rays[k] * rays[k].transpose();
     a += across;
-    b += across * model.poses[landmark.track[k].photo].centre;
+    b += across * model.centre_at(landmark.track[k].photo, landmark.track[k].v);
   }
   const Eigen::LDLT<Eigen::Matrix3d> solver(a);
   if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() < 1e-9) return false;
@@ -42,7 +42,8 @@ void refine(const Model& model, const Landmark& landmark, Eigen::Vector3d& point
       const Observation& seen = landmark.track[k];
       const Pose& pose = model.poses[seen.photo];
       const CameraModel& camera = model.camera(seen.photo);
-      const Eigen::Vector3d p = pose.camera_from_map * (point - pose.centre);
+      const Eigen::Vector3d p =
+          pose.camera_from_map * (point - model.centre_at(seen.photo, seen.v));
       const auto pixel = camera.project(p);
       if (!pixel) return;
       Eigen::Matrix<double, 2, 3> j;
@@ -124,11 +125,11 @@ void place_on_plane(Model& model, double ground, double spread) {
     std::vector<Eigen::Vector3d> feet;
     for (std::size_t k = 0; k < landmark.track.size(); ++k) {
       const Observation& seen = landmark.track[k];
-      const Pose& pose = model.poses[seen.photo];
-      if (!pose.known) continue;
+      if (!model.poses[seen.photo].known) continue;
       const Eigen::Vector3d ray = model.direction(seen.photo, seen.u, seen.v);
       if (ray.z() > -0.1) continue;  // near the horizon
-      feet.emplace_back(pose.centre + ray * ((ground - pose.centre.z()) / ray.z()));
+      const Eigen::Vector3d centre = model.centre_at(seen.photo, seen.v);
+      feet.emplace_back(centre + ray * ((ground - centre.z()) / ray.z()));
       sum += feet.back();
       landmark.used[k] = 1;
     }

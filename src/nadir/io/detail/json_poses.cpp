@@ -120,6 +120,8 @@ ImportedPoses read_nadir_poses(const std::filesystem::path& path) {
                              q.at(2).get<double>())
               .normalized();
       pose.map_from_camera.translation = vector(photo.at("position"));
+      if (photo.contains("flown_in_readout"))
+        pose.flown_in_readout = vector(photo.at("flown_in_readout"));
       result.poses.push_back(std::move(pose));
     }
     if (result.poses.empty()) throw input_error(path, "holds no poses");
