@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures the whole pipeline on simulated campuses, from raw sensors, against exact truth.
 
-    benchmarks/simulated_world.py [--places 7 8 9] [--seeds 3] [--photos 30] [--frames 60]
+    benchmarks/simulated_world.py [--places 7 8 9] [--seeds 3] [--photos 30] [--frames 60] [--data DIR]
 
 For every place: nadir simulate (RTK) -> map -> ground -> localize with each method -> evaluation
 without alignment; once more with the positions of a consumer's receiver for the shift that those
-leave in the map; and NEES of the layers over `height_temper`. Everything through the command line,
+leave in the map; and NEES of the layers over `height_temper`. With --data, the folder of the
+Aero-Ground run, the methods also on its map: real texture, draped over level ground. Everything through the command line,
 as a user would; standard library only. Writes a dated report.
 """
 import argparse
@@ -49,16 +50,16 @@ def shift_between(estimated, truth):
 
 
 class Place:
-    """A campus from its seed to a site that nadir localizes in."""
+    """A place from what makes it to a site that nadir localizes in."""
 
-    def __init__(self, program, folder, seed, arguments, gps):
-        self.program, self.seed = program, seed
+    def __init__(self, program, folder, name, arguments, gps, made_of):
+        self.program, self.name = program, name
         self.range = f"{arguments.first}:{arguments.frames - 1}"
-        self.folder = folder / f"{seed}_{gps}"
+        self.folder = folder / f"{name}_{gps}"
         self.folder.mkdir()
         world = self.folder / "world"
-        nadir(program, "simulate", "-o", world, "--seed", seed, "--gps", gps, "--photos",
-              arguments.photos, "--frames", arguments.frames)
+        nadir(program, "simulate", "-o", world, "--gps", gps, "--photos", arguments.photos,
+              "--frames", arguments.frames, *made_of)
         campus = self.folder / "campus.tif"
         self.map = nadir(program, "map", world / "photos", "-o", campus)
         self.drive = self.folder / "drive"
@@ -71,6 +72,17 @@ class Place:
         document = nadir(self.program, "localize", site or self.drive, "-o", run, "--frames", self.range,
                          "--prior", "truth", "--seed", 1, "--seeds", seeds, "--overwrite", *options)
         return run, document.get("runs") or [document]
+
+
+def campus(seed, gps, program, folder, arguments):
+    return Place(program, folder, str(seed), arguments, gps, ("--seed", seed))
+
+
+def draped(program, folder, arguments):
+    site = folder / "aeroground"
+    subprocess.run([program, "convert", "aeroground", arguments.data, "-o", site, "--quiet"],
+                   stdout=subprocess.DEVNULL, check=True)
+    return Place(program, folder, "Aero-Ground", arguments, "rtk", ("--from", site / "map.tif"))
 
 
 def rmse(values):
@@ -87,7 +99,7 @@ def row(name, place, run, runs, seeds):
     folders = [run] if seeds == 1 else sorted(run.glob("seed_*"))
     errors = [errors_of(folder, place.drive) for folder in folders]
     judged = [r["evaluation"] for r in runs]
-    return {"name": name, "seed": place.seed,
+    return {"name": name, "place": place.name,
             "rmse": statistics.mean(j["ape_trans_m"]["rmse"] for j in judged),
             "yaw": statistics.mean(j["yaw_deg"]["rmse"] for j in judged),
             "max": max(j["ape_trans_m"]["max"] for j in judged),
@@ -107,7 +119,7 @@ def table_of_methods(places, seeds):
              f"| RMSE of the first {FIRST} frames, m | of the others, m | NEES |",
              "|---|---|---|---|---|---|---|---|"]
     for r in rows:
-        lines.append(f"| {r['name']} | {r['seed']} | {r['rmse']:.3f} | {r['yaw']:.2f} "
+        lines.append(f"| {r['name']} | {r['place']} | {r['rmse']:.3f} | {r['yaw']:.2f} "
                      f"| {r['max']:.2f} | {r['first']:.3f} | {r['rest']:.3f} | {r['nees']:.2f} |")
     return lines
 
@@ -148,7 +160,7 @@ def table_of_shifts(program, folder, arguments):
     lines = ["| place | shift of the photos, east, north, m | shift of the estimate, m | RMSE, m "
              "| RMSE without its shift, m |", "|---|---|---|---|---|"]
     for seed in arguments.places:
-        place = Place(program, folder, seed, arguments, "consumer")
+        place = campus(seed, "consumer", program, folder, arguments)
         run, runs = place.localize("default", 1)
         estimated, truth = read_tum(run / "trajectory.tum"), read_tum(place.drive / "truth.tum")
         east, north = shift_between(estimated, truth)
@@ -169,6 +181,7 @@ def main():
     parser.add_argument("--frames", type=int, default=60)
     parser.add_argument("--first", type=int, default=12,
                         help="frame from which on is localized: until then the local map fills")
+    parser.add_argument("--data", help="folder of the Aero-Ground run")
     parser.add_argument("--nadir", default="build/release/bin/nadir")
     parser.add_argument("-o", "--output", type=pathlib.Path)
     arguments = parser.parse_args()
@@ -179,19 +192,27 @@ def main():
                              check=True).stdout.splitlines()[0]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        places = [Place(arguments.nadir, folder, seed, arguments, "rtk") for seed in arguments.places]
+        places = [campus(seed, "rtk", arguments.nadir, folder, arguments) for seed in arguments.places]
         methods = table_of_methods(places, arguments.seeds)
+        on_drape = []
+        if arguments.data:
+            map_of_run = draped(arguments.nadir, folder, arguments)
+            on_drape = ["## A real map, draped (RTK)", "",
+                        "The drone's map of the Aero-Ground run over level ground, seen at the same hour by drone and "
+                        f"robot; {map_of_run.map['registered']} of {map_of_run.map['used']} photos joined.", "",
+                        *table_of_methods([map_of_run], arguments.seeds), ""]
         tempers = table_of_tempers(places, arguments.seeds)
         shifts = table_of_shifts(arguments.nadir, folder, arguments)
+    words = ["DIR" if word == arguments.data else word for word in sys.argv[1:]]
     joined = ", ".join(f"{p.map['registered']} of {p.map['used']}" for p in places)
     text = [f"# Simulated world, {today}", "", f"{version}; {machine()}. Written by", "",
-            "    benchmarks/" + " ".join([pathlib.Path(__file__).name, *sys.argv[1:]]), "",
+            "    benchmarks/" + " ".join([pathlib.Path(__file__).name, *words]), "",
             f"Campuses of seeds {', '.join(map(str, arguments.places))}, each with {arguments.photos} "
             f"photos and {arguments.frames} stereo pairs, through `nadir map` (photos joined: {joined}) "
             f"and `nadir ground`; start uniform in ±5 m and ±5 degrees around a prior that is off by "
             f"as much; online estimates; errors against exact truth, without alignment, of the frames "
             f"from {arguments.first} on, when the local map is filled; mean of {arguments.seeds} seeds of the filter.", "",
-            "## Methods (RTK)", "", *methods, "",
+            "## Methods (RTK)", "", *methods, "", *on_drape,
             "## Layers and `localization.height_temper` (RTK, all places)", "", *tempers, "",
             "The 95 % band of the NEES over all frames of a run, were they independent, is about "
             "2.4 to 3.6; below it the covariance is too large, above it too small.", "",

@@ -50,7 +50,10 @@ int run(const ConvertMapOptions& options, const Invocation& invocation) {
                 "give another -o");
   }
   const ImportedOrthomosaic imported = import_orthomosaic(options.input, import_options(options));
-  if (!common.dry_run) write_orthomosaic(options.map, imported.map);
+  if (!common.dry_run) {
+    make_folder_of(options.map);
+    write_orthomosaic(options.map, imported.map);
+  }
   const GeoReference& geo = imported.map.geo;
   if (common.json) {
     print(Json{{"map", options.map.string()},

@@ -223,6 +223,7 @@ int follow_flight(const MapOptions& options, const Invocation& invocation) {
   if (!fs::is_directory(options.flight.photos)) {
     throw Error(ErrorKind::kInput, "there is no such folder", options.flight.photos.string());
   }
+  make_folder_of(options.map);
   Growing growing(options, effective.aerial_mapping(), common);
   print_note("waiting for photos in " + options.flight.photos.string(), common.quiet);
   take_photos(options, growing);

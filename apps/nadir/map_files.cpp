@@ -48,14 +48,24 @@ void require_new(const fs::path& map, const CommonOptions& common) {
   if (map.extension() != ".tif" && map.extension() != ".tiff") {
     throw Error(ErrorKind::kUsage, "the map is a GeoTIFF", map.string(), "give -o MAP.tif");
   }
-  const fs::path folder = map.has_parent_path() ? map.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) {
-    throw Error(ErrorKind::kUsage, "there is no such folder", folder.string(),
-                "create it or give another -o");
+  fs::path place = fs::absolute(map).parent_path();
+  while (!fs::exists(place) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place)) {
+    throw Error(ErrorKind::kUsage, "the map cannot lie in what is no folder", place.string(),
+                "give another -o");
   }
   if (fs::exists(map) && !common.overwrite) {
     throw Error(ErrorKind::kUsage, "the map is there already", map.string(),
                 "give --overwrite to replace it, or another -o");
+  }
+}
+
+void make_folder_of(const fs::path& map) {
+  std::error_code error;
+  if (map.has_parent_path()) fs::create_directories(map.parent_path(), error);
+  if (error) {
+    throw Error(ErrorKind::kProcessing, "cannot create the output folder: " + error.message(),
+                map.parent_path().string(), "check the place and its rights");
   }
 }
 

@@ -25,8 +25,10 @@ struct MapFiles {
 };
 
 /// Throws Error (usage) for a map that is no .tif, that is there already without --overwrite, or
-/// whose folder is not there.
+/// that would lie in a file.
 void require_new(const std::filesystem::path& map, const CommonOptions& common);
+/// Makes the folder of a map where it is not there. Throws Error (processing) where it cannot.
+void make_folder_of(const std::filesystem::path& map);
 
 /// Writes the rasters and the poses, the map last: where it is, all is.
 void write_map_files(const MapFiles& files, const AerialMap& map);

@@ -209,6 +209,7 @@ int map_flight(const MapOptions& options, const Invocation& invocation) {
   }
   if (common.dry_run) return explain(options, input, common);
 
+  make_folder_of(options.map);
   if (options.sfm == "colmap") {
     solve_by_colmap(options, common, input);
     stage.refine_given_poses = true;  // so that positions, gimbal and focal length have their say

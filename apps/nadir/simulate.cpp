@@ -9,6 +9,7 @@
 #include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/elevation_file.hpp"
+#include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -43,7 +44,7 @@ OptionSources with_gps(const SimulateOptions& options) {
 }
 
 SimulatedWorld make_world(const SimulateOptions& options, const SimulationOptions& simulation,
-                          std::uint64_t seed) {
+                          std::uint64_t seed, bool quiet) {
   if (options.from.empty()) {
     if (options.dsm.empty()) return SimulatedWorld::make(seed, simulation.world);
     throw Error(ErrorKind::kUsage, "a surface needs the orthomosaic that lies on it", "--dsm",
@@ -51,7 +52,32 @@ SimulatedWorld make_world(const SimulateOptions& options, const SimulationOption
   }
   std::optional<ElevationMap> surface;
   if (!options.dsm.empty()) surface = read_elevation_map(options.dsm);
-  return SimulatedWorld::drape(read_orthomosaic(options.from), surface, seed);
+  const Orthomosaic map = read_orthomosaic(options.from);
+  const std::optional<int> zone = utm_zone_of(map.geo.crs);
+  if (!zone) {
+    const SiteAnchor anchor;
+    print_note(
+        fmt::format("{} lies on no UTM grid of WGS84: its south-west corner is placed at "
+                    "{:.0f} east, {:.0f} north in zone {} north",
+                    options.from.string(), anchor.easting_m, anchor.northing_m, anchor.utm_zone),
+        quiet);
+  }
+  return SimulatedWorld::drape(map, surface, seed, zone);
+}
+
+/// What the options of a made world say, a map that is given has decided already.
+void require_world_is_made_or_given(const SimulateOptions& options, const OptionOrigins& origins) {
+  if (options.from.empty()) return;
+  WorldOptions world;
+  OptionTable made;
+  declare(made, world);
+  for (const Option& option : made.options()) {
+    const auto origin = origins.find(option.name);
+    if (origin == origins.end()) continue;
+    if (!origin->second.starts_with("--")) continue;  // a file of all options may hold it
+    throw Error(ErrorKind::kUsage, option.name + " is of a made world, --from gives one",
+                origin->second, "leave one of the two out");
+  }
 }
 
 std::vector<fs::path> inputs_of(const SimulateOptions& options) {
@@ -111,11 +137,13 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
   require_device(common);
   const ThreadLimit limit(common);
   const EffectiveOptions effective(with_gps(options));
+  require_world_is_made_or_given(options, effective.origins());
   const SimulationOptions& simulation = effective.simulation();
   const std::vector<fs::path> inputs = inputs_of(options);
   require_writable(options.site, common, inputs);
   const Stopwatch stopwatch;
-  const SimulatedSite site(make_world(options, simulation, common.seed), simulation, common.seed);
+  const SimulatedSite site(make_world(options, simulation, common.seed, common.quiet), simulation,
+                           common.seed);
   const std::vector<int> photos = site.photos(options.photos);
   Json document = describe(options, simulation, site, photos.size());
   if (common.dry_run) {

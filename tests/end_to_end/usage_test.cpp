@@ -12,7 +12,9 @@
 namespace nadir::testing {
 namespace {
 
-const std::vector<std::vector<std::string>> kVerbs{{"convert", "aeroground"},
+const std::vector<std::vector<std::string>> kVerbs{{"simulate"},
+                                                   {"map"},
+                                                   {"convert", "aeroground"},
                                                    {"ground"},
                                                    {"run"},
                                                    {"info"},
@@ -21,6 +23,8 @@ const std::vector<std::vector<std::string>> kVerbs{{"convert", "aeroground"},
                                                    {"eval"},
                                                    {"demo"},
                                                    {"doctor"},
+                                                   {"view"},
+                                                   {"report"},
                                                    {"config", "dump"},
                                                    {"completion"},
                                                    {"version"}};
@@ -83,6 +87,19 @@ TEST(UsageTest, BadValuesAreUsageErrors) {
   expect_refused(nadir({"localize", site, "--prior", "truth"}), 2, "--output");
   expect_refused(nadir({"match", site, "-o", run, "--frame", "77"}), 2, "frames 0 to 7");
   EXPECT_FALSE(std::filesystem::exists(run));
+}
+
+TEST(UsageTest, AGivenGroundLeavesNothingToTheOptionsOfAMadeOne) {
+  const std::string map = (small_site() / "map.tif").string();
+  const std::string site = (scratch_folder() / "draped").string();
+  const auto simulate = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"simulate", "-o", site, "--from", map, "--dry-run"};
+    words.insert(words.end(), more.begin(), more.end());
+    return nadir(words);
+  };
+  EXPECT_EQ(simulate({}).exit_code, 0);
+  expect_refused(simulate({"--preset", "farm"}), 2, "--preset: simulation.preset");
+  expect_refused(simulate({"--set", "simulation.width_m=50"}), 2, "simulation.width_m");
 }
 
 TEST(UsageTest, PrecedenceIsFlagSetEnvironmentFileDefault) {

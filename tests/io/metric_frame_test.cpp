@@ -33,6 +33,17 @@ TEST(MetricFrame, TakesTheZoneOfTheMedianPosition) {
   EXPECT_NEAR(step, 14.3, 0.1) << "no jump at the border";
 }
 
+TEST(MetricFrame, ItsZoneIsReadFromItsReferenceSystem) {
+  EXPECT_EQ(utm_zone_of(MetricFrame::around({at(46.84, -91.99)}).crs()), 15);
+  EXPECT_EQ(utm_zone_of(MetricFrame::around({at(-33.9, 151.2)}).crs()), -56);
+  EXPECT_EQ(utm_zone_of("EPSG:32632"), 32);
+  EXPECT_EQ(utm_zone_of("EPSG:25832"), std::nullopt) << "ETRS89";
+  EXPECT_EQ(utm_zone_of("EPSG:3857"), std::nullopt);
+  EXPECT_EQ(utm_zone_of("EPSG:4326"), std::nullopt);
+  EXPECT_EQ(utm_zone_of(""), std::nullopt);
+  EXPECT_EQ(utm_zone_of("nowhere"), std::nullopt);
+}
+
 TEST(MetricFrame, TheAntimeridianIsNoGap) {
   const MetricFrame frame =
       MetricFrame::around({at(-17.0, 179.9999), at(-17.0, -179.9999), at(-17.0, 179.9998)});

@@ -85,42 +85,5 @@ TEST(SimulatedWorld, OptionsAreChecked) {
   EXPECT_THROW(SimulatedWorld::make(1, options), Error);
 }
 
-TEST(DrapedWorld, ShowsTheMapThatItWasGiven) {
-  Orthomosaic map;
-  map.geo = {1000.0, 2000.0, 0.1, {}};
-  map.image = Raster<std::uint8_t>(200, 150, 0, 3);
-  map.valid = Raster<std::uint8_t>(200, 150, 255);
-  for (int row = 0; row < 150; ++row) {
-    for (int column = 0; column < 200; ++column) {
-      for (int k = 0; k < 3; ++k) {
-        map.image.at(column, row, k) = static_cast<std::uint8_t>(
-            128.0 + 60.0 * std::sin(0.11 * column + 0.4 * k) * std::cos(0.07 * row));
-      }
-    }
-  }
-  ElevationMap surface{Raster<float>(20, 15, 30.0F), {1000.0, 2000.0, 1.0, {}}};
-  for (const int i : {4, 5, 6}) {
-    for (const int j : {4, 5, 6}) surface.height_m.at(i, j) = 33.0F;
-  }
-  ElevationMap elsewhere = surface;
-  elsewhere.geo.west += 80000.0;
-  EXPECT_THROW(SimulatedWorld::drape(map, elsewhere, 1), Error);
-  const SimulatedWorld draped = SimulatedWorld::drape(map, surface);
-  EXPECT_NEAR(draped.ground_height(5.5, 15.0 - 5.5), 3.0, 1e-3);
-  EXPECT_NEAR(draped.ground_height(14.0, 3.0), 0.0, 1e-6);
-  EXPECT_DOUBLE_EQ(draped.anchor().easting_m, 1000.0);
-  const Orthomosaic seen =
-      draped.seen(flight_appearance()).true_orthomosaic({0.0, 15.0, 0.1, {}}, 200, 150);
-  std::vector<double> given;
-  std::vector<double> shown;
-  for (int row = 100; row < 145; ++row) {
-    for (int column = 100; column < 195; ++column) {
-      given.push_back(map.image.at(column, row, 1));
-      shown.push_back(seen.image.at(column, row, 1));
-    }
-  }
-  EXPECT_GT(test::zncc(given, shown), 0.99);
-}
-
 }  // namespace
 }  // namespace nadir

@@ -21,6 +21,22 @@ TEST(SiteAnchor, AgreesWithProj) {
   EXPECT_NEAR(corner.longitude_deg, 6.50917520329118, 1e-10);
 }
 
+TEST(SiteAnchor, AgreesWithProjInTheSouth) {
+  // gdaltransform -s_srs EPSG:32733 -t_srs EPSG:4326
+  SiteAnchor anchor;
+  anchor.easting_m = 700000.0;
+  anchor.northing_m = 6200000.0;
+  anchor.utm_zone = -33;
+  const GeodeticPosition origin = anchor.geodetic({0.0, 0.0, 0.0});
+  EXPECT_NEAR(origin.latitude_deg, -34.3220050521924, 1e-10);
+  EXPECT_NEAR(origin.longitude_deg, 17.17377076157, 1e-10);
+  const GeodeticPosition corner = anchor.geodetic({120.0, 90.0, 0.0});
+  EXPECT_NEAR(corner.latitude_deg, -34.3211708265342, 1e-10);
+  EXPECT_NEAR(corner.longitude_deg, 17.1750532621116, 1e-10);
+  // East of the central meridian the grid's north leans to the west of true north in the south.
+  EXPECT_NEAR(degrees(anchor.convergence({0.0, 0.0, 0.0})), -1.2262, 1e-3);
+}
+
 TEST(SiteAnchor, IsTrueToScale) {
   // A kilometre of the grid, as metres along the meridian and the parallel.
   const SiteAnchor anchor;

@@ -132,6 +132,19 @@ double MetricFrame::yaw_of_true_heading(double heading_rad, const GeodeticPositi
   return yaw_of_heading(heading_rad + grid_heading_of_north);
 }
 
+std::optional<int> utm_zone_of(const std::string& crs) {
+  const GdalErrors errors;
+  OGRSpatialReference grid;
+  if (crs.empty() || grid.SetFromUserInput(crs.c_str()) != OGRERR_NONE) return std::nullopt;
+  grid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  int is_north = 0;
+  const int zone = grid.GetUTMZone(&is_north);
+  if (zone == 0) return std::nullopt;
+  const OGRSpatialReference known = from_epsg((is_north != 0 ? 32600 : 32700) + zone);
+  if (grid.IsSame(&known) == 0) return std::nullopt;
+  return is_north != 0 ? zone : -zone;
+}
+
 struct GeodeticReader::Transform {
   Transformation to_geodetic;
 };

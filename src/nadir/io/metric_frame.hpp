@@ -46,6 +46,10 @@ class MetricFrame {
   std::unique_ptr<Transforms> transforms_;
 };
 
+/// The zone of a grid as MetricFrame has them, from its WKT: 1 .. 60, negative south of the
+/// equator. None for every other reference system, one of the same zone on another datum included.
+std::optional<int> utm_zone_of(const std::string& crs);
+
 /// Coordinates of a reference system, as "EPSG:32632", a PROJ string, WKT, or ODM's "WGS84 UTM
 /// 32N"; geographic ones take x = longitude, y = latitude, degrees. The altitude is handed on as it
 /// is. Throws Error (input), that names `where`, for a system that is not understood and a point

@@ -33,9 +33,9 @@ SimulatedWorld SimulatedWorld::make(std::uint64_t seed, const WorldOptions& opti
 }
 
 SimulatedWorld SimulatedWorld::drape(const Orthomosaic& map,
-                                     const std::optional<ElevationMap>& surface,
-                                     std::uint64_t seed) {
-  return SimulatedWorld(simulation::drape_terrain(seed, map, surface));
+                                     const std::optional<ElevationMap>& surface, std::uint64_t seed,
+                                     std::optional<int> utm_zone) {
+  return SimulatedWorld(simulation::drape_terrain(seed, map, surface, utm_zone));
 }
 
 double SimulatedWorld::width_m() const { return terrain_->options.width_m; }

@@ -61,7 +61,7 @@ struct SiteAnchor {
   double easting_m = 320000.0;  ///< of the local origin
   double northing_m = 5500000.0;
   double altitude_m = 180.0;  ///< above the ellipsoid, of local height 0
-  int utm_zone = 32;          ///< north of the equator
+  int utm_zone = 32;          ///< negative south of the equator
   std::string crs = utm_zone_32_north();
 
   /// From local metres; to a millimetre (Karney, "Transverse Mercator with an accuracy of a few
@@ -84,9 +84,11 @@ class SimulatedWorld {
   /// its range.
   static SimulatedWorld make(std::uint64_t seed, const WorldOptions& options);
   /// A world whose ground shows an orthomosaic, with the heights of a surface model where there is
-  /// one. Holes of the mosaic show as plain grey, holes of the model as its lowest height.
+  /// one. Holes of the mosaic show as plain grey, holes of the model as its lowest height. Where
+  /// the map lies on a grid of `utm_zone` (negative in the south), WGS84, so does the world;
+  /// without, it lies where a SiteAnchor lies by default.
   static SimulatedWorld drape(const Orthomosaic& map, const std::optional<ElevationMap>& surface,
-                              std::uint64_t seed = 1);
+                              std::uint64_t seed = 1, std::optional<int> utm_zone = {});
 
   double width_m() const;
   double depth_m() const;

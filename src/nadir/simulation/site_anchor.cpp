@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transverse Mercator of WGS84, inverse, by Krueger's series to order 4 (0.01 mm within a zone).
 #include <cmath>
+#include <cstdlib>
 
 #include "nadir/core/angle.hpp"
 #include "nadir/simulation/simulated_world.hpp"
@@ -12,13 +13,15 @@ constexpr double kSemiMajor = 6378137.0;
 constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kScale = 0.9996;
 constexpr double kFalseEasting = 500000.0;
+constexpr double kFalseNorthing = 1e7;  ///< south of the equator
 
 struct Geodetic {
   double latitude = 0.0;   ///< radians
   double longitude = 0.0;  ///< from the central meridian
 };
 
-Geodetic inverse_mercator(double easting, double northing) {
+Geodetic inverse_mercator(double easting, double northing, int zone) {
+  if (zone < 0) northing -= kFalseNorthing;
   const double n = kFlattening / (2.0 - kFlattening);
   const double n2 = n * n;
   const double n3 = n2 * n;
@@ -65,8 +68,8 @@ std::string utm_zone_32_north() {
 }
 
 GeodeticPosition SiteAnchor::geodetic(const Point3<frames::Map>& point) const {
-  const Geodetic place = inverse_mercator(easting_m + point.x, northing_m + point.y);
-  const double meridian = 6.0 * utm_zone - 183.0;
+  const Geodetic place = inverse_mercator(easting_m + point.x, northing_m + point.y, utm_zone);
+  const double meridian = 6.0 * std::abs(utm_zone) - 183.0;
   return {.latitude_deg = degrees(place.latitude),
           .longitude_deg = meridian + degrees(place.longitude),
           .altitude_m = altitude_m + point.z,
@@ -75,8 +78,10 @@ GeodeticPosition SiteAnchor::geodetic(const Point3<frames::Map>& point) const {
 
 double SiteAnchor::convergence(const Point3<frames::Map>& point) const {
   constexpr double kStep = 50.0;
-  const Geodetic south = inverse_mercator(easting_m + point.x, northing_m + point.y - kStep);
-  const Geodetic north = inverse_mercator(easting_m + point.x, northing_m + point.y + kStep);
+  const Geodetic south =
+      inverse_mercator(easting_m + point.x, northing_m + point.y - kStep, utm_zone);
+  const Geodetic north =
+      inverse_mercator(easting_m + point.x, northing_m + point.y + kStep, utm_zone);
   const double middle = 0.5 * (south.latitude + north.latitude);
   // Isometric steps on the ellipsoid: the meridian's and the parallel's radius of curvature.
   const double e2 = kFlattening * (2.0 - kFlattening);

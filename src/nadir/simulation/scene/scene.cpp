@@ -22,6 +22,11 @@ constexpr double kShadowReach = 80.0;
 constexpr std::uint64_t kParked = 1'000'000;
 constexpr std::uint64_t kUnderWay = 2'000'000;
 
+/// A coordinate folded into low .. high, as between two mirrors.
+double mirrored(double value, double low, double high) {
+  return low + std::abs(std::remainder(value - low, 2.0 * (high - low)));
+}
+
 Light light_of(const Appearance& appearance) {
   const double elevation = radians(appearance.sun_elevation_deg);
   const double yaw = 0.5 * kPi - radians(appearance.sun_heading_deg);
@@ -217,7 +222,11 @@ void Scene::refine(std::span<const Pose2> places, double radius_m) {
 
 Eigen::Vector3f Scene::ground_colour(double x, double y, float footprint) const {
   const Extent& extent = terrain_->extent;
-  if (x < extent.low.x() || y < extent.low.y() || x >= extent.high.x() || y >= extent.high.y()) {
+  if (!extent.contains(x, y)) {
+    if (terrain_->draped) {  // beyond the map nothing is known: it goes on as its mirror image
+      return ground_.at(mirrored(x, extent.low.x(), extent.high.x()),
+                        mirrored(y, extent.low.y(), extent.high.y()), footprint);
+    }
     const Eigen::Vector2d point(x, y);
     const GroundSample sample =
         terrain_->sample(point, footprint, terrain_->model->near(point, 0.0));
@@ -249,10 +258,11 @@ Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector
   if (hit.solid == RayHit::kSky) return sky(direction);
   const Eigen::Vector3d p = origin + hit.t * direction;
   if (hit.solid >= 0) return solid_colour(p, hit, static_cast<float>(width));
-  // A slanted pixel is long: several samples along it, each as wide as the pixel.
+  // A slanted pixel is long: several samples along it, each as wide as the pixel. Ground that rises
+  // towards the ray is seen less aslant; where it falls away, it is taken for level.
   const double run = std::hypot(direction.x(), direction.y());
-  const double slant = direction.norm() / std::max(std::abs(direction.z()), 1e-6);
-  const double length = std::min(width * slant, 40.0);
+  const double facing = std::max(rise_along(p, direction), 0.0) - direction.z();
+  const double length = std::min(width * direction.norm() / std::max(facing, 1e-6), 40.0);
   const int taps = std::clamp(static_cast<int>(std::lround(length / width)), 1, kMaximumTaps);
   const auto footprint = static_cast<float>(std::max(width, length / kMaximumTaps));
   const Eigen::Vector3f left = movers == nullptr ? Eigen::Vector3f::Ones() : shadow_of(*movers, p);
@@ -263,6 +273,12 @@ Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector
     sum += ground_colour(p.x() + offset * direction.x(), p.y() + offset * direction.y(), footprint);
   }
   return left.cwiseProduct(sum) / static_cast<float>(taps);
+}
+
+double Scene::rise_along(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {
+  if (!terrain_->extent.contains(point.x(), point.y())) return 0.0;
+  const Eigen::Vector3d normal = terrain_->heights.normal(point.x(), point.y());
+  return -normal.head<2>().dot(direction.head<2>()) / normal.z();
 }
 
 Eigen::Vector3f Scene::shadow_of(const Movers& movers, const Eigen::Vector3d& point) const {

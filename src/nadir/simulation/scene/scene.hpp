@@ -37,6 +37,8 @@ class Scene {
 
  private:
   void park_cars(std::vector<Solid>& solids) const;
+  /// How fast the ground rises under a ray that moves on, metres a unit of its parameter.
+  double rise_along(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
   /// What of the light is left on the ground beside the movers, 0 .. 1 of each colour.
   Eigen::Vector3f shadow_of(const Movers& movers, const Eigen::Vector3d& point) const;
   void cast_shadows();

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "nadir/core/error.hpp"
+#include "nadir/simulation/scene/free_way.hpp"
 #include "nadir/simulation/scene/ground_spot.hpp"
 #include "nadir/simulation/scene/texture.hpp"
 #include "nadir/simulation/scene/things.hpp"
@@ -148,8 +149,9 @@ void require_same_place(const Orthomosaic& map, const ElevationMap& surface) {
               {}, "give a surface model of the same place in the same coordinate system");
 }
 
-/// Takes over a surface model: its lowest height becomes 0, and fills its holes.
-void drape_surface(const ElevationMap& surface, Terrain& terrain) {
+/// Takes over a surface model: its lowest height becomes 0, and fills its holes. `corner` is the
+/// south-west one of the map.
+void drape_surface(const ElevationMap& surface, const Eigen::Vector2d& corner, Terrain& terrain) {
   float lowest = std::numeric_limits<float>::infinity();
   for (const float height : surface.height_m.values()) {
     if (std::isfinite(height)) lowest = std::min(lowest, height);
@@ -161,14 +163,53 @@ void drape_surface(const ElevationMap& surface, Terrain& terrain) {
   for (float& height : draped.height_m.values()) {
     height = std::isfinite(height) ? height - lowest : 0.0F;
   }
-  draped.geo.west -= terrain.anchor.easting_m;
-  draped.geo.north -= terrain.anchor.northing_m;
+  draped.geo.west -= corner.x();
+  draped.geo.north -= corner.y();
   terrain.anchor.altitude_m = lowest;
   terrain.draped_surface = std::move(draped);
 }
 
-/// A route of its own: a round through the middle of the map.
-void add_round(Terrain& terrain) {
+/// Where the map and the surface are known and a robot does not climb.
+FreeGround free_ground(const Terrain& terrain, const std::optional<ElevationMap>& surface,
+                       const Eigen::Vector2d& corner) {
+  constexpr double kCell = 0.5;
+  constexpr double kSteepest = 0.25;  // metres of height a metre, 14 degrees
+  const Orthomosaic& map = *terrain.draped;
+  const Eigen::Vector2d size = terrain.extent.high - terrain.extent.low;
+  FreeGround ground{
+      Raster<std::uint8_t>(static_cast<int>(size.x() / kCell), static_cast<int>(size.y() / kCell)),
+      terrain.extent.low, kCell};
+  const auto is_known = [](const auto& raster, const PixelCoordinate& at, const auto& known) {
+    const int column = static_cast<int>(std::floor(at.column));
+    const int row = static_cast<int>(std::floor(at.row));
+    return raster.contains(column, row) && known(raster.at(column, row));
+  };
+  const auto rise = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& half) {
+    const Eigen::Vector2d from = p - half;
+    const Eigen::Vector2d to = p + half;
+    return std::abs(terrain.heights.at(to.x(), to.y()) - terrain.heights.at(from.x(), from.y()));
+  };
+  for (int row = 0; row < ground.free.height(); ++row) {
+    for (int column = 0; column < ground.free.width(); ++column) {
+      const Eigen::Vector2d p = ground.middle(column, row);
+      const bool seen = is_known(map.valid, map.geo.pixel_at(p.x(), p.y()),
+                                 [](std::uint8_t valid) { return valid != 0; });
+      const bool measured =
+          !surface ||
+          is_known(surface->height_m, surface->geo.pixel_at(p.x() + corner.x(), p.y() + corner.y()),
+                   [](float height) { return std::isfinite(height); });
+      const bool level = rise(p, {kCell, 0.0}) < 2.0 * kCell * kSteepest &&
+                         rise(p, {0.0, kCell}) < 2.0 * kCell * kSteepest;
+      if (seen && measured && level) ground.free.at(column, row) = 255;
+    }
+  }
+  return ground;
+}
+
+/// A route of its own: a round through the middle of the map where that is free, else a long way
+/// over what is.
+void add_route(Terrain& terrain, const std::optional<ElevationMap>& surface,
+               const Eigen::Vector2d& corner) {
   const double width = terrain.options.width_m;
   const double depth = terrain.options.depth_m;
   const double inset = std::min(0.25 * std::min(width, depth), 30.0);
@@ -177,8 +218,15 @@ void add_round(Terrain& terrain) {
                                              {width - inset, inset},
                                              {width - inset, depth - inset},
                                              {inset, depth - inset}};
-  const std::vector<double> radii{0.4 * inset};
-  terrain.layout.routes.emplace_back(corners, radii, false);
+  const Path round(corners, std::vector<double>{0.4 * inset}, false);
+  const FreeGround ground = free_ground(terrain, surface, corner);
+  bool free = true;
+  for (double along = 0.0; along < round.length() && free; along += ground.cell_m) {
+    free = ground.at(round.at(along).point);
+  }
+  const std::vector<Eigen::Vector2d> way = free ? std::vector<Eigen::Vector2d>{} : free_way(ground);
+  terrain.layout.routes.push_back(
+      way.empty() ? round : Path(way, std::vector<double>{kFreeWayRadius}, false));
 }
 
 }  // namespace
@@ -212,17 +260,21 @@ std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptio
 }
 
 std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosaic& map,
-                                             const std::optional<ElevationMap>& surface) {
+                                             const std::optional<ElevationMap>& surface,
+                                             std::optional<int> utm_zone) {
   auto terrain = std::make_shared<Terrain>();
   terrain->seed = seed;
   if (map.image.empty() || (map.image.channels() != 1 && map.image.channels() != 3)) {
     throw Error(ErrorKind::kInput, "an orthomosaic without pixels cannot be draped");
   }
   const GeoReference& geo = map.geo;
-  terrain->anchor.crs = geo.crs;
-  const double south = geo.y_at(map.height());
-  terrain->anchor.easting_m = geo.west;
-  terrain->anchor.northing_m = south;
+  const Eigen::Vector2d corner(geo.west, geo.y_at(map.height()));
+  if (utm_zone) {
+    terrain->anchor.easting_m = corner.x();
+    terrain->anchor.northing_m = corner.y();
+    terrain->anchor.utm_zone = *utm_zone;
+    terrain->anchor.crs = geo.crs;
+  }
   terrain->options.width_m = map.width() * geo.resolution;
   terrain->options.depth_m = map.height() * geo.resolution;
   terrain->options.margin_m = 0.0;
@@ -236,10 +288,10 @@ std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosa
                                                  terrain->extent.high);
   if (surface) {
     require_same_place(map, *surface);
-    drape_surface(*surface, *terrain);
+    drape_surface(*surface, corner, *terrain);
   }
-  add_round(*terrain);
   draw_ground(*terrain);
+  add_route(*terrain, surface, corner);
   return terrain;
 }
 

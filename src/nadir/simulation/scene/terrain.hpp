@@ -15,6 +15,10 @@ namespace nadir::simulation {
 struct Extent {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
+
+  bool contains(double x, double y) const {
+    return x >= low.x() && y >= low.y() && x < high.x() && y < high.y();
+  }
 };
 
 /// What of a place stays as it is: ground, houses, trees.
@@ -39,6 +43,7 @@ struct Terrain {
 
 std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptions& options);
 std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosaic& map,
-                                             const std::optional<ElevationMap>& surface);
+                                             const std::optional<ElevationMap>& surface,
+                                             std::optional<int> utm_zone);
 
 }  // namespace nadir::simulation
