@@ -71,12 +71,14 @@ void require_world_is_made_or_given(const SimulateOptions& options, const Option
   WorldOptions world;
   OptionTable made;
   declare(made, world);
-  for (const Option& option : made.options()) {
-    const auto origin = origins.find(option.name);
+  std::vector<std::string> names{"simulation.drive_lane_offset_m"};
+  for (const Option& option : made.options()) names.push_back(option.name);
+  for (const std::string& name : names) {
+    const auto origin = origins.find(name);
     if (origin == origins.end()) continue;
     if (!origin->second.starts_with("--")) continue;  // a file of all options may hold it
-    throw Error(ErrorKind::kUsage, option.name + " is of a made world, --from gives one",
-                origin->second, "leave one of the two out");
+    throw Error(ErrorKind::kUsage, name + " is of a made world, --from gives one", origin->second,
+                "leave one of the two out");
   }
 }
 

@@ -61,8 +61,9 @@ void declare(OptionTable& table, RouteOptions& options) {
   table.number(part + "speed_m_s", options.speed_m_s, {0.05, 30.0}, "Speed of the robot, m/s.");
   table.number(part + "start_m", options.start_m, {0.0, 1000.0},
                "Where on the route it starts, metres.");
-  table.number(part + "lane_offset_m", options.lane_offset_m, {-10.0, 10.0},
-               "Metres to the left of the route; negative = right.");
+  table.number(
+      part + "lane_offset_m", options.lane_offset_m, {-10.0, 10.0},
+      "Metres to the left of the middle of the road; negative = right. Not for a draped map.");
   table.number(part + "stamp_jitter_s", options.stamp_jitter_s, {0.0, 0.1},
                "Largest error of a stamp, seconds.");
   table.number(part + "shake_deg", options.shake_deg, {0.0, 5.0},

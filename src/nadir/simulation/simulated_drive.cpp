@@ -135,6 +135,7 @@ void SimulatedDrive::drive(const SimulatedWorld& world, const std::vector<Pose2>
                 "simulation.drive_frames",
                 "at most " + std::to_string(fit) + " do with this start and step");
   }
+  const double aside = world.has_lanes() ? route_options_.lane_offset_m : 0.0;
   const RandomStream jitter(seed_, kStamps);
   for (int frame = 0; frame < count; ++frame) {
     const double along = (route_options_.start_m + frame * route_options_.step_m) / kRouteStep;
@@ -144,7 +145,7 @@ void SimulatedDrive::drive(const SimulatedWorld& world, const std::vector<Pose2>
     const Pose2& b = route[below + 1];
     Pose2 pose{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
                wrap_angle(a.yaw + share * wrap_angle(b.yaw - a.yaw))};
-    poses_.push_back(settled(world, shifted_left(pose, route_options_.lane_offset_m), frame));
+    poses_.push_back(settled(world, shifted_left(pose, aside), frame));
     const double seconds = frame * route_options_.step_m / route_options_.speed_m_s +
                            route_options_.stamp_jitter_s * jitter.uniform(draw_index(frame), -1, 1);
     stamps_.push_back({kStart + std::llround(seconds * 1e9)});

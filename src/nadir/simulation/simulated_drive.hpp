@@ -24,7 +24,7 @@ struct RouteOptions {
   double step_m = 0.8;  ///< travel between frames
   double speed_m_s = 2.0;
   double start_m = 2.0;          ///< along the route
-  double lane_offset_m = -1.75;  ///< to the left of the route; the right lane is negative
+  double lane_offset_m = -1.75;  ///< where there are lanes: to the left of the road's middle
   double stamp_jitter_s = 0.002;
   double shake_deg = 0.15;  ///< standard deviation of pitch and roll against the ground
 

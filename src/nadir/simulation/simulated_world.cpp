@@ -61,6 +61,8 @@ std::vector<std::vector<Pose2>> SimulatedWorld::routes() const {
   return routes;
 }
 
+bool SimulatedWorld::has_lanes() const { return !terrain_->draped; }
+
 SimulatedScene SimulatedWorld::seen(const Appearance& appearance) const {
   return SimulatedScene(std::make_shared<simulation::Scene>(terrain_, appearance));
 }

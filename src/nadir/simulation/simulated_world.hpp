@@ -95,8 +95,10 @@ class SimulatedWorld {
   const SiteAnchor& anchor() const;
   /// Height of the bare ground: kerbs included, cars, houses and trees not.
   double ground_height(double x, double y) const;
-  /// Paths for a robot to drive: places half a metre apart with their headings.
+  /// Paths for a robot to drive: places half a metre apart with their headings. Where the world
+  /// has lanes they are the middles of roads.
   std::vector<std::vector<Pose2>> routes() const;
+  bool has_lanes() const;  ///< every world but a draped one
   /// The place in the light and traffic of an hour.
   SimulatedScene seen(const Appearance& appearance) const;
 
