@@ -203,7 +203,7 @@ def main():
                         *table_of_methods([map_of_run], arguments.seeds), ""]
         tempers = table_of_tempers(places, arguments.seeds)
         shifts = table_of_shifts(arguments.nadir, folder, arguments)
-    words = ["DIR" if word == arguments.data else word for word in sys.argv[1:]]
+    words = [word.replace(arguments.data, "DIR") if arguments.data else word for word in sys.argv[1:]]
     joined = ", ".join(f"{p.map['registered']} of {p.map['used']}" for p in places)
     text = [f"# Simulated world, {today}", "", f"{version}; {machine()}. Written by", "",
             "    benchmarks/" + " ".join([pathlib.Path(__file__).name, *words]), "",

@@ -44,14 +44,19 @@ MapFiles::MapFiles(const fs::path& path)
       report(sister(path, ".report.json")),
       page(sister(path, ".report.html")) {}
 
+fs::path standing_folder_of(const fs::path& map) {
+  fs::path place = fs::absolute(map).parent_path();
+  while (!fs::exists(place) && place.has_relative_path()) place = place.parent_path();
+  return place;
+}
+
 void require_new(const fs::path& map, const CommonOptions& common) {
   if (map.extension() != ".tif" && map.extension() != ".tiff") {
     throw Error(ErrorKind::kUsage, "the map is a GeoTIFF", map.string(), "give -o MAP.tif");
   }
-  fs::path place = fs::absolute(map).parent_path();
-  while (!fs::exists(place) && place.has_relative_path()) place = place.parent_path();
+  const fs::path place = standing_folder_of(map);
   if (!fs::is_directory(place)) {
-    throw Error(ErrorKind::kUsage, "the map cannot lie in what is no folder", place.string(),
+    throw Error(ErrorKind::kUsage, "this is a file, no folder for the map", place.string(),
                 "give another -o");
   }
   if (fs::exists(map) && !common.overwrite) {

@@ -165,7 +165,7 @@ void check_size(const AerialMappingOptions& options, const fs::path& map, Flight
   }
   constexpr double kBytesPerPixel = 9.0;  // colours, mask, views, quality, before compression
   std::error_code unknown;
-  const auto space = fs::space(map.has_parent_path() ? map.parent_path() : ".", unknown);
+  const auto space = fs::space(standing_folder_of(map), unknown);
   const double needed_mb = megapixels * kBytesPerPixel;
   const double free_mb = static_cast<double>(space.available) / 1e6;
   if (!unknown && needed_mb > free_mb) {

@@ -53,32 +53,38 @@ SimulatedWorld make_world(const SimulateOptions& options, const SimulationOption
   std::optional<ElevationMap> surface;
   if (!options.dsm.empty()) surface = read_elevation_map(options.dsm);
   const Orthomosaic map = read_orthomosaic(options.from);
-  const std::optional<int> zone = utm_zone_of(map.geo.crs);
+  const std::optional<int> zone =
+      utm_zone_at(map.geo.crs, map.geo.x_at(0.5 * map.width()), map.geo.y_at(0.5 * map.height()));
   if (!zone) {
     const SiteAnchor anchor;
     print_note(
-        fmt::format("{} lies on no UTM grid of WGS84: its south-west corner is placed at "
-                    "{:.0f} east, {:.0f} north in zone {} north",
-                    options.from.string(), anchor.easting_m, anchor.northing_m, anchor.utm_zone),
+        fmt::format(
+            "{} is not on the WGS84 grid of its UTM zone: its south-west corner is placed at "
+            "{:.0f} east, {:.0f} north in zone {} north",
+            options.from.string(), anchor.easting_m, anchor.northing_m, anchor.utm_zone),
         quiet);
   }
   return SimulatedWorld::drape(map, surface, seed, zone);
 }
 
-/// What the options of a made world say, a map that is given has decided already.
-void require_world_is_made_or_given(const SimulateOptions& options, const OptionOrigins& origins) {
+/// A given map leaves nothing to the options of a procedural world: refused rather than ignored,
+/// where somebody typed them.
+void require_options_of_given_map(const SimulateOptions& options, const OptionOrigins& origins) {
   if (options.from.empty()) return;
   WorldOptions world;
   OptionTable made;
   declare(made, world);
   std::vector<std::string> names{"simulation.drive_lane_offset_m"};
+  for (const std::string visit : {"simulation.flight_", "simulation.drive_"}) {
+    for (const char* name : {"dryness", "car_share", "cars_per_km"}) names.push_back(visit + name);
+  }
   for (const Option& option : made.options()) names.push_back(option.name);
   for (const std::string& name : names) {
     const auto origin = origins.find(name);
     if (origin == origins.end()) continue;
     if (!origin->second.starts_with("--")) continue;  // a file of all options may hold it
-    throw Error(ErrorKind::kUsage, name + " is of a made world, --from gives one", origin->second,
-                "leave one of the two out");
+    throw Error(ErrorKind::kUsage, name + " is for procedural worlds, --from gives a map",
+                origin->second, "leave one of the two out");
   }
 }
 
@@ -139,7 +145,7 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
   require_device(common);
   const ThreadLimit limit(common);
   const EffectiveOptions effective(with_gps(options));
-  require_world_is_made_or_given(options, effective.origins());
+  require_options_of_given_map(options, effective.origins());
   const SimulationOptions& simulation = effective.simulation();
   const std::vector<fs::path> inputs = inputs_of(options);
   require_writable(options.site, common, inputs);

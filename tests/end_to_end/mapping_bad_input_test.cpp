@@ -214,10 +214,10 @@ TEST_F(MappingBadInputTest, OutputsThatCannotBe) {
   expect(nadir({"map", (folder_ / "photos").string(), "-o", (folder_ / "map.png").string()}), 2,
          {"GeoTIFF"});
   expect(nadir({"map", (folder_ / "photos").string(), "-o", (file(0) / "map.tif").string()}), 2,
-         {"photos/a.jpg", "no folder"});
+         {"photos/a.jpg", "no folder for the map"});
   expect(
       nadir({"map", (folder_ / "photos").string(), "-o", (file(0) / "not/there/map.tif").string()}),
-      2, {"photos/a.jpg", "no folder"});
+      2, {"photos/a.jpg", "no folder for the map"});
   expect(nadir({"map", (folder_ / "none").string(), "-o", (folder_ / "map.tif").string()}), 3,
          {"none"});
 }

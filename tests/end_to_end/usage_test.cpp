@@ -89,7 +89,7 @@ TEST(UsageTest, BadValuesAreUsageErrors) {
   EXPECT_FALSE(std::filesystem::exists(run));
 }
 
-TEST(UsageTest, AGivenGroundLeavesNothingToTheOptionsOfAMadeOne) {
+TEST(UsageTest, AGivenMapLeavesNothingToTheOptionsOfProceduralWorlds) {
   const std::string map = (small_site() / "map.tif").string();
   const std::string site = (scratch_folder() / "draped").string();
   const auto simulate = [&](std::vector<std::string> more) {
@@ -100,6 +100,7 @@ TEST(UsageTest, AGivenGroundLeavesNothingToTheOptionsOfAMadeOne) {
   EXPECT_EQ(simulate({}).exit_code, 0);
   expect_refused(simulate({"--preset", "farm"}), 2, "--preset: simulation.preset");
   expect_refused(simulate({"--set", "simulation.width_m=50"}), 2, "simulation.width_m");
+  expect_refused(simulate({"--set", "simulation.drive_lane_offset_m=1"}), 2, "drive_lane_offset_m");
 }
 
 TEST(UsageTest, PrecedenceIsFlagSetEnvironmentFileDefault) {

@@ -34,14 +34,19 @@ TEST(MetricFrame, TakesTheZoneOfTheMedianPosition) {
 }
 
 TEST(MetricFrame, ItsZoneIsReadFromItsReferenceSystem) {
-  EXPECT_EQ(utm_zone_of(MetricFrame::around({at(46.84, -91.99)}).crs()), 15);
-  EXPECT_EQ(utm_zone_of(MetricFrame::around({at(-33.9, 151.2)}).crs()), -56);
-  EXPECT_EQ(utm_zone_of("EPSG:32632"), 32);
-  EXPECT_EQ(utm_zone_of("EPSG:25832"), std::nullopt) << "ETRS89";
-  EXPECT_EQ(utm_zone_of("EPSG:3857"), std::nullopt);
-  EXPECT_EQ(utm_zone_of("EPSG:4326"), std::nullopt);
-  EXPECT_EQ(utm_zone_of(""), std::nullopt);
-  EXPECT_EQ(utm_zone_of("nowhere"), std::nullopt);
+  const auto zone = [](const std::string& crs, double x = 500000.0, double y = 5500000.0) {
+    return utm_zone_at(crs, x, y);
+  };
+  EXPECT_EQ(zone(MetricFrame::around({at(46.84, -91.99)}).crs()), 15);
+  EXPECT_EQ(zone(MetricFrame::around({at(-33.9, 151.2)}).crs()), -56);
+  EXPECT_EQ(zone("EPSG:32632"), 32);
+  EXPECT_EQ(zone("EPSG:32632+5773"), 32) << "with heights above a geoid";
+  EXPECT_EQ(zone("EPSG:32632", 900000.0), std::nullopt) << "a place of zone 33";
+  EXPECT_EQ(zone("EPSG:25832"), std::nullopt) << "ETRS89";
+  EXPECT_EQ(zone("EPSG:3857"), std::nullopt);
+  EXPECT_EQ(zone("EPSG:4326"), std::nullopt);
+  EXPECT_EQ(zone(""), std::nullopt);
+  EXPECT_EQ(zone("nowhere"), std::nullopt);
 }
 
 TEST(MetricFrame, TheAntimeridianIsNoGap) {

@@ -8,6 +8,7 @@
 
 #include "nadir/core/error.hpp"
 #include "nadir/simulation/scene/scene.hpp"
+#include "nadir/simulation/simulated_drive.hpp"
 #include "nadir/simulation/simulated_world.hpp"
 #include "simulation/small_world.hpp"
 
@@ -113,6 +114,18 @@ TEST(DrapedWorld, IsDrivenWhereTheMapIsKnown) {
   const std::vector<Pose2> route = SimulatedWorld::drape(map_of_roads(), std::nullopt).routes()[0];
   EXPECT_GT(length_of(route), 80.0);  // two roads of 48 m from their corner, less both ends
   for (const Pose2& place : route) EXPECT_GT(within_roads(place.x, place.y), 1.0);
+}
+
+/// There is no lane to keep: the robot drives on the way itself.
+TEST(DrapedWorld, TheRobotKeepsToTheWay) {
+  const SimulatedWorld world = SimulatedWorld::drape(map_of_roads(), std::nullopt);
+  RouteOptions route;
+  route.frames = 90;
+  const SimulatedDrive drive(world, world.seen(drive_appearance()), route, 7);
+  for (int frame = 0; frame < drive.size(); ++frame) {
+    const Eigen::Vector3d& at = drive.map_from_robot(frame).translation;
+    EXPECT_GT(within_roads(at.x(), at.y()), 1.0) << frame;
+  }
 }
 
 TEST(DrapedWorld, IsDrivenToAWallAndNoFarther) {

@@ -39,6 +39,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+int zone_of(double longitude_deg) {
+  return std::clamp(static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0)) + 1, 1, 60);
+}
+
 /// Longitudes on both sides of the antimeridian are one neighbourhood.
 double median_longitude(std::vector<double> longitudes) {
   const auto [west, east] = std::minmax_element(longitudes.begin(), longitudes.end());
@@ -93,8 +97,7 @@ MetricFrame MetricFrame::around(const std::vector<GeodeticPosition>& positions) 
                 {}, "remove the positions and give --metres-per-pixel for a map in local metres");
   }
   const bool south = middle.latitude_deg < 0.0;
-  const int zone =
-      std::clamp(static_cast<int>(std::floor((middle.longitude_deg + 180.0) / 6.0)) + 1, 1, 60);
+  const int zone = zone_of(middle.longitude_deg);
   const int epsg = (south ? 32700 : 32600) + zone;
   return {epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north")};
 }
@@ -132,16 +135,22 @@ double MetricFrame::yaw_of_true_heading(double heading_rad, const GeodeticPositi
   return yaw_of_heading(heading_rad + grid_heading_of_north);
 }
 
-std::optional<int> utm_zone_of(const std::string& crs) {
+std::optional<int> utm_zone_at(const std::string& crs, double x, double y) {
   const GdalErrors errors;
   OGRSpatialReference grid;
   if (crs.empty() || grid.SetFromUserInput(crs.c_str()) != OGRERR_NONE) return std::nullopt;
+  grid.StripVertical();
   grid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   int is_north = 0;
   const int zone = grid.GetUTMZone(&is_north);
   if (zone == 0) return std::nullopt;
   const OGRSpatialReference known = from_epsg((is_north != 0 ? 32600 : 32700) + zone);
   if (grid.IsSame(&known) == 0) return std::nullopt;
+  double longitude = x;
+  double latitude = y;
+  const Transformation to_geodetic = transformation(known, from_epsg(4326));
+  if (to_geodetic->Transform(1, &longitude, &latitude) == 0) return std::nullopt;
+  if (zone_of(longitude) != zone || (latitude < 0.0) == (is_north != 0)) return std::nullopt;
   return is_north != 0 ? zone : -zone;
 }
 

@@ -46,9 +46,10 @@ class MetricFrame {
   std::unique_ptr<Transforms> transforms_;
 };
 
-/// The zone of a grid as MetricFrame has them, from its WKT: 1 .. 60, negative south of the
-/// equator. None for every other reference system, one of the same zone on another datum included.
-std::optional<int> utm_zone_of(const std::string& crs);
+/// The UTM zone whose grid a reference system is, from its WKT, and in which MetricFrame puts this
+/// place on it too: 1 .. 60, negative south of the equator. None for every other system, one of the
+/// same zone on another datum included, and for places of another zone.
+std::optional<int> utm_zone_at(const std::string& crs, double x, double y);
 
 /// Coordinates of a reference system, as "EPSG:32632", a PROJ string, WKT, or ODM's "WGS84 UTM
 /// 32N"; geographic ones take x = longitude, y = latitude, degrees. The altitude is handed on as it

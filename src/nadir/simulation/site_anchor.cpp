@@ -71,7 +71,7 @@ GeodeticPosition SiteAnchor::geodetic(const Point3<frames::Map>& point) const {
   const Geodetic place = inverse_mercator(easting_m + point.x, northing_m + point.y, utm_zone);
   const double meridian = 6.0 * std::abs(utm_zone) - 183.0;
   return {.latitude_deg = degrees(place.latitude),
-          .longitude_deg = meridian + degrees(place.longitude),
+          .longitude_deg = std::remainder(meridian + degrees(place.longitude), 360.0),
           .altitude_m = altitude_m + point.z,
           .ellipsoidal = true};
 }

@@ -259,9 +259,9 @@ Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector
   const Eigen::Vector3d p = origin + hit.t * direction;
   if (hit.solid >= 0) return solid_colour(p, hit, static_cast<float>(width));
   // A slanted pixel is long: several samples along it, each as wide as the pixel. Ground that rises
-  // towards the ray is seen less aslant; where it falls away, it is taken for level.
+  // along the ray is seen less aslant; where it falls away, it is taken for level.
   const double run = std::hypot(direction.x(), direction.y());
-  const double facing = std::max(rise_along(p, direction), 0.0) - direction.z();
+  const double facing = std::max(rise_along(p, direction) - direction.z(), std::abs(direction.z()));
   const double length = std::min(width * direction.norm() / std::max(facing, 1e-6), 40.0);
   const int taps = std::clamp(static_cast<int>(std::lround(length / width)), 1, kMaximumTaps);
   const auto footprint = static_cast<float>(std::max(width, length / kMaximumTaps));
@@ -276,7 +276,6 @@ Eigen::Vector3f Scene::colour(const Eigen::Vector3d& origin, const Eigen::Vector
 }
 
 double Scene::rise_along(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {
-  if (!terrain_->extent.contains(point.x(), point.y())) return 0.0;
   const Eigen::Vector3d normal = terrain_->heights.normal(point.x(), point.y());
   return -normal.head<2>().dot(direction.head<2>()) / normal.z();
 }

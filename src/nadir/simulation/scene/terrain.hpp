@@ -41,7 +41,11 @@ struct Terrain {
   GroundSample sample(const Eigen::Vector2d& point, float footprint, const Nearby& nearby) const;
 };
 
+/// Draws heights and colours of the whole extent.
+void draw_ground(Terrain& terrain);
+
 std::shared_ptr<const Terrain> make_terrain(std::uint64_t seed, const WorldOptions& options);
+/// As SimulatedWorld::drape() has it.
 std::shared_ptr<const Terrain> drape_terrain(std::uint64_t seed, const Orthomosaic& map,
                                              const std::optional<ElevationMap>& surface,
                                              std::optional<int> utm_zone);
