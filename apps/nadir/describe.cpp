@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "nadir/core/error.hpp"
 #include "nadir/io/bag_topics.hpp"
 #include "nadir/io/drive_reader.hpp"
+#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/sequence.hpp"
@@ -16,25 +18,43 @@
 namespace nadir::cli {
 namespace {
 
-double valid_share(const Orthomosaic& orthomosaic) {
-  const auto& valid = orthomosaic.valid.values();
-  const auto holes = std::ranges::count(valid, std::uint8_t{0});
-  return 1.0 - static_cast<double>(holes) / static_cast<double>(valid.size());
+double share(std::ptrdiff_t part, std::size_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-Json describe(const Orthomosaic& orthomosaic) {
-  const GeoReference& geo = orthomosaic.geo;
-  return {{"width_px", orthomosaic.width()},
-          {"height_px", orthomosaic.height()},
-          {"channels", orthomosaic.image.channels()},
+Json describe(const GeoReference& geo, int width, int height) {
+  return {{"width_px", width},
+          {"height_px", height},
           {"resolution_m", geo.resolution},
           {"extent_m",
            {{"west", geo.west},
-            {"south", geo.y_at(orthomosaic.height())},
-            {"east", geo.x_at(orthomosaic.width())},
+            {"south", geo.y_at(height)},
+            {"east", geo.x_at(width)},
             {"north", geo.north}}},
-          {"crs", geo.crs.empty() ? Json("local metres") : Json(geo.crs)},
-          {"valid_share", valid_share(orthomosaic)}};
+          {"crs", geo.crs.empty() ? Json("local metres") : Json(geo.crs)}};
+}
+
+Json describe(const Orthomosaic& orthomosaic) {
+  Json document = describe(orthomosaic.geo, orthomosaic.width(), orthomosaic.height());
+  const auto& valid = orthomosaic.valid.values();
+  const auto holes = std::ranges::count(valid, std::uint8_t{0});
+  document["channels"] = orthomosaic.image.channels();
+  document["valid_share"] = 1.0 - share(holes, valid.size());
+  return document;
+}
+
+Json describe(const ElevationMap& surface) {
+  Json document = describe(surface.geo, surface.width(), surface.height());
+  std::vector<float> known;
+  std::ranges::copy_if(surface.height_m.values(), std::back_inserter(known),
+                       [](float height) { return std::isfinite(height); });
+  const auto middle = known.begin() + std::ssize(known) / 2;
+  std::ranges::nth_element(known, middle);
+  document["heights_m"] = {{"lowest", *std::ranges::min_element(known)},
+                           {"median", *middle},
+                           {"highest", *std::ranges::max_element(known)}};
+  document["known_share"] = share(std::ssize(known), surface.height_m.values().size());
+  return document;
 }
 
 /// A gap is a step of time beyond 1.5 times the usual one.
@@ -129,6 +149,11 @@ Json describe_bag(const std::filesystem::path& file) {
 }
 
 Json describe_image(const std::filesystem::path& path) {
+  if (looks_like_heights(path)) {
+    Json document{{"kind", "surface"}, {"path", path.string()}};
+    document.update(describe(read_elevation_map(path)));
+    return document;
+  }
   const auto pixels = read_image(path);
   Json document{{"kind", "image"}, {"path", path.string()}};
   try {

@@ -73,9 +73,10 @@ int run(const InfoOptions& options, const Invocation& invocation) {
 void add_info(CLI::App& program, Invocation& invocation) {
   auto [verb, options] = add_verb<InfoOptions>(
       program, invocation, "info",
-      "Say what a site, a drive, a bag, an orthomosaic or a trajectory holds", run);
+      "Say what a site, a drive, a bag, an orthomosaic, a surface or a trajectory holds", run);
   verb->add_option("path", options.path,
-                   "Site or drive folder, ROS 1 bag, GeoTIFF or image, or TUM trajectory")
+                   "Site or drive folder, ROS 1 bag, GeoTIFF of colours or heights, image, or TUM "
+                   "trajectory")
       ->type_name("PATH")
       ->required();
   verb->footer(

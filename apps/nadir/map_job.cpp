@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -120,7 +121,7 @@ MappingProgress mapping_progress(const CommonOptions& common) {
     for (const MappingStage& known : kMappingStages) {
       if (stage == known.name) {
         bar->rename("mapping: " + stage);
-        bar->update(static_cast<int>(kProgressSteps * (done + share * known.share)));
+        bar->update(static_cast<int>(std::lround(kProgressSteps * (done + share * known.share))));
         return;
       }
       done += known.share;

@@ -172,9 +172,9 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
 
 void add_world(CLI::App& verb, SimulateOptions& options) {
   add_option_flag(verb, options.sources, "--preset", "simulation.preset");
-  verb.add_option("--from", options.from, "Take the ground from this orthomosaic instead")
+  verb.add_option("--from", options.from, "Take the ground from this orthomosaic instead; the drive keeps to what is free")
       ->type_name("MAP");
-  verb.add_option("--dsm", options.dsm, "Its heights: a surface model")->type_name("FILE");
+  verb.add_option("--dsm", options.dsm, "Heights of that map: a surface model")->type_name("FILE");
 }
 
 void add_visits(CLI::App& verb, SimulateOptions& options) {

@@ -6,11 +6,13 @@
 
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_site.hpp"
+#include "nadir/io/elevation_file.hpp"
 
 namespace nadir::testing {
 namespace {
@@ -45,6 +47,17 @@ TEST(ResultTest, InfoOfEveryKind) {
   const Json map = json_of({"info", map_file(small_site()).string()});
   EXPECT_EQ(map["kind"], "orthomosaic");
   EXPECT_EQ(map["resolution_m"], site["map"]["resolution_m"]);
+  const std::string surface_file = scratch("info") + "_surface.tif";
+  ElevationMap heights{Raster<float>(4, 3, 7.0F), {10.0, 20.0, 0.5, {}}};
+  heights.height_m.at(0, 0) = 5.0F;
+  heights.height_m.at(3, 2) = std::numeric_limits<float>::quiet_NaN();
+  write_elevation_map(surface_file, heights);
+  const Json surface = json_of({"info", surface_file});
+  EXPECT_EQ(surface["kind"], "surface");
+  EXPECT_EQ(surface["heights_m"]["lowest"], 5.0);
+  EXPECT_EQ(surface["heights_m"]["median"], 7.0);
+  EXPECT_EQ(surface["extent_m"]["south"], 18.5);
+  EXPECT_NEAR(surface["known_share"], 11.0 / 12.0, 1e-12);
   const Json truth = json_of({"info", (small_site() / "truth.tum").string()});
   EXPECT_EQ(truth["kind"], "trajectory");
   EXPECT_GT(truth["length_m"], 1.0);

@@ -68,6 +68,9 @@ TEST_F(ForeignOrthomosaic, RefusesOtherPixels) {
   recipe.type = GDT_UInt16;
   refuse(recipe, {"map.tif", "UInt16", "gdal_translate -ot Byte -scale"});
   recipe = {};
+  recipe.type = GDT_Float32;
+  refuse(recipe, {"map.tif", "heights", "give the orthomosaic"});
+  recipe = {};
   recipe.palette = true;
   refuse(recipe, {"palette", "gdal_translate -expand rgb"});
   recipe = {};

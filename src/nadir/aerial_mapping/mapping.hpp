@@ -21,13 +21,12 @@ struct MappingStage {
   const char* name;
   double share;
 };
-inline constexpr std::array<MappingStage, 7> kMappingStages{{{"features", 0.30},
+inline constexpr std::array<MappingStage, 6> kMappingStages{{{"features", 0.30},
                                                              {"matching", 0.35},
                                                              {"adjustment", 0.15},
                                                              {"surface", 0.02},
                                                              {"seams", 0.06},
-                                                             {"orthomosaic", 0.12},
-                                                             {"report", 0.0}}};
+                                                             {"orthomosaic", 0.12}}};
 
 /// Photos -> poses -> surface -> orthomosaic (docs/aerial-mapping.md). Shows the largest group of
 /// photos that join each other; the report names the others. The bytes depend neither on the order

@@ -58,6 +58,14 @@ Raster<float> read_heights(GDALRasterBand& band, const std::filesystem::path& pa
 
 }  // namespace
 
+bool looks_like_heights(const std::filesystem::path& path) {
+  gdal_driver("GTiff");
+  const GdalErrors errors;
+  const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset || dataset->GetRasterCount() != 1) return false;
+  return GDALDataTypeIsFloating(dataset->GetRasterBand(1)->GetRasterDataType()) != 0;
+}
+
 ElevationMap read_elevation_map(const std::filesystem::path& path) {
   gdal_driver("GTiff");
   const GdalErrors errors;

@@ -13,6 +13,10 @@ namespace nadir {
 /// square or not in true metres, no geo-reference, and no height at all.
 ElevationMap read_elevation_map(const std::filesystem::path& path);
 
+/// Whether a raster is one band of floating-point numbers, as heights are and pictures are not.
+/// False for what cannot be opened.
+bool looks_like_heights(const std::filesystem::path& path);
+
 /// Writes a GeoTIFF: 32-bit floats, nodata -9999, tiled, DEFLATE, overviews when larger than 1024
 /// pixels. Atomic; the same heights give the same bytes. Throws Error (processing) where it cannot
 /// be written, (usage) for another extension than .tif.

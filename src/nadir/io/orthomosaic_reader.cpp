@@ -22,6 +22,10 @@ void check_pixel_type(GDALDataset& dataset, const std::filesystem::path& path) {
     if (band.GetColorTable() != nullptr) {
       throw input_error(path, "its colours are a palette", translate_line(path, "-expand rgb"));
     }
+    if (dataset.GetRasterCount() == 1 && GDALDataTypeIsFloating(band.GetRasterDataType()) != 0) {
+      throw input_error(path, "its pixels are numbers as heights are, not colours",
+                        "give the orthomosaic here, and a surface model as a surface");
+    }
     const char* bits = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE");
     if (band.GetRasterDataType() != GDT_Byte || bits != nullptr) {
       throw input_error(

@@ -55,8 +55,9 @@ void declare(OptionTable& table, const std::string& name, Appearance& appearance
 /// The coordinate reference system of made worlds, as WKT.
 std::string utm_zone_32_north();
 
-/// Where the local metres of a world lie on earth: a UTM grid of WGS84. The site is so far from the
-/// central meridian of its zone that a metre of the grid is a metre on the ground, to 3e-6.
+/// Where the local metres of a world lie on earth: a UTM grid of WGS84. They are metres of the
+/// grid; by default that lies so far from the central meridian of its zone that they are metres on
+/// the ground too, to 3e-6 (elsewhere in a zone to 4e-4).
 struct SiteAnchor {
   double easting_m = 320000.0;  ///< of the local origin
   double northing_m = 5500000.0;
