@@ -172,7 +172,8 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
 
 void add_world(CLI::App& verb, SimulateOptions& options) {
   add_option_flag(verb, options.sources, "--preset", "simulation.preset");
-  verb.add_option("--from", options.from, "Take the ground from this orthomosaic instead; the drive keeps to what is free")
+  verb.add_option("--from", options.from,
+                  "Take the ground from this orthomosaic instead; the drive keeps to what is free")
       ->type_name("MAP");
   verb.add_option("--dsm", options.dsm, "Heights of that map: a surface model")->type_name("FILE");
 }
