@@ -135,9 +135,11 @@ TraversabilityGrid traversability_of(const Terrain& terrain,
 }
 
 bool keeps_clear(const Path& path, const TraversabilityGrid& grid) {
-  constexpr double kStep = 0.25;
-  for (double along = 0.0; along < path.length(); along += kStep) {
-    if (grid.clearance(path.at(along).point) < TraversabilityGrid::kClearance) return false;
+  constexpr double kStep = 0.25;  // metres
+  const auto steps = static_cast<int>(std::ceil(path.length() / kStep));
+  for (int step = 0; step <= steps; ++step) {
+    const Eigen::Vector2d at = path.at(path.length() * step / steps).point;
+    if (grid.clearance(at) < TraversabilityGrid::kClearance) return false;
   }
   return true;
 }
@@ -153,7 +155,7 @@ Path route_over(const Terrain& terrain, const TraversabilityGrid& grid) {
                                              {width - inset, inset},
                                              {width - inset, depth - inset},
                                              {inset, depth - inset}};
-  const Path loop(corners, std::vector<double>{0.4 * inset}, false);
+  Path loop(corners, std::vector<double>{0.4 * inset}, false);
   if (keeps_clear(loop, grid)) return loop;
   const std::vector<Eigen::Vector2d> path = grid.path();
   if (path.empty()) return loop;

@@ -49,7 +49,8 @@ cv::Mat1b largest_part(const cv::Mat1b& mask) {
     }
   }
   if (largest == 0) return {};
-  return cv::Mat1b(labels == largest);
+  cv::Mat1b part(labels == largest);
+  return part;
 }
 
 /// The cheapest paths from one cell to all others of a part (Dijkstra's algorithm).
@@ -150,7 +151,7 @@ std::vector<Eigen::Vector2d> TraversabilityGrid::path() const {
   std::vector<Eigen::Vector2d> path;
   double length = 0.0;
   for (const cv::Point& corner : corners) {
-    path.push_back(low_ + cell_m_ * Eigen::Vector2d(corner.x + 0.5, corner.y + 0.5));
+    path.emplace_back(low_ + cell_m_ * Eigen::Vector2d(corner.x + 0.5, corner.y + 0.5));
     if (path.size() > 1) length += (path.back() - path[path.size() - 2]).norm();
   }
   return length > kShortest ? path : std::vector<Eigen::Vector2d>{};
