@@ -136,6 +136,19 @@ TEST(DrapedWorld, IsDrivenToAWallAndNoFarther) {
   for (const Pose2& place : route) EXPECT_LT(place.x, 33.5);
 }
 
+/// What lies farther off may be a valley; a cell may be larger than the map.
+TEST(DrapedWorld, HeightsAreThoseUnderTheMap) {
+  ElevationMap surface{Raster<float>(1, 1, 12.0F), {490.0, 810.0, 300.0, {}}};
+  EXPECT_NEAR(SimulatedWorld::drape(map_of_waves(), surface).ground_height(30.0, 30.0), 0.0, 1e-6);
+  surface = {Raster<float>(40, 40, -500.0F), {400.0, 900.0, 5.0, {}}};
+  for (int row = 19; row < 34; ++row) {
+    for (int column = 19; column < 34; ++column) surface.height_m.at(column, row) = 12.0F;
+  }
+  const SimulatedWorld level = SimulatedWorld::drape(map_of_waves(), surface);
+  EXPECT_DOUBLE_EQ(level.anchor().altitude_m, 12.0);
+  EXPECT_NEAR(level.ground_height(30.0, 30.0), 0.0, 1e-6);
+}
+
 TEST(DrapedWorld, IsDrivenAroundItsMiddleWhereAllIsFree) {
   const std::vector<Pose2> route = SimulatedWorld::drape(map_of_waves(), std::nullopt).routes()[0];
   EXPECT_NEAR(route.front().x, 15.0, 0.1);

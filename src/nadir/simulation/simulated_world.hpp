@@ -65,8 +65,8 @@ struct SiteAnchor {
   int utm_zone = 32;          ///< negative south of the equator
   std::string crs = utm_zone_32_north();
 
-  /// From local metres; to a millimetre (Karney, "Transverse Mercator with an accuracy of a few
-  /// nanometers", 2011, series of order 6).
+  /// From local metres; to 0.01 mm (Krueger's series of order 4, as in Karney, "Transverse Mercator
+  /// with an accuracy of a few nanometers", 2011).
   GeodeticPosition geodetic(const Point3<frames::Map>& point) const;
   /// Heading of the grid's north, clockwise from true north, radians.
   double convergence(const Point3<frames::Map>& point) const;
@@ -87,7 +87,8 @@ class SimulatedWorld {
   /// A world whose ground shows an orthomosaic, with the heights of a surface model where there is
   /// one. Holes of the mosaic show as plain grey, holes of the model as its lowest height. Where
   /// the map lies on a grid of `utm_zone` (negative in the south), WGS84, so does the world;
-  /// without, it lies where a SiteAnchor lies by default.
+  /// without, it lies where a SiteAnchor lies by default. Throws Error (input) for a map without
+  /// pixels or less than 10 m wide, and for a surface that covers less than half of it.
   static SimulatedWorld drape(const Orthomosaic& map, const std::optional<ElevationMap>& surface,
                               std::uint64_t seed = 1, std::optional<int> utm_zone = {});
 

@@ -77,13 +77,15 @@ void drape_surface(const ElevationMap& surface, const Eigen::Vector2d& corner, T
   ElevationMap draped = surface;
   draped.geo.west -= corner.x();
   draped.geo.north -= corner.y();
+  // Interpolation reads heights up to one cell away; a coarse cell may be wider than the map.
+  const Eigen::Vector2d cell = Eigen::Vector2d::Constant(draped.geo.resolution);
+  const Extent read{terrain.extent.low - cell, terrain.extent.high + cell};
   float lowest = std::numeric_limits<float>::infinity();
   for (int row = 0; row < draped.height(); ++row) {
     for (int column = 0; column < draped.width(); ++column) {
       const float height = draped.height_m.at(column, row);
-      const bool under =
-          terrain.extent.contains(draped.geo.x_at(column + 0.5), draped.geo.y_at(row + 0.5));
-      if (under && std::isfinite(height)) lowest = std::min(lowest, height);
+      const bool used = read.contains(draped.geo.x_at(column + 0.5), draped.geo.y_at(row + 0.5));
+      if (used && std::isfinite(height)) lowest = std::min(lowest, height);
     }
   }
   for (float& height : draped.height_m.values()) {
