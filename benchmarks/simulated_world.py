@@ -7,8 +7,8 @@
 For every place: nadir simulate (RTK) -> map -> ground -> localize with each method -> evaluation
 without alignment; once more with the positions of a consumer's receiver for the shift that those
 leave in the map; and NEES of the layers over `height_temper`. With --data, the folder of the
-Aero-Ground run, the methods also on its map: real texture, draped over level ground. Everything through the command line,
-as a user would; standard library only. Writes a dated report.
+Aero-Ground run, the methods also on its map: real texture, draped over level ground. Everything
+through the command line, as a user would; standard library only. Writes a dated report.
 """
 import argparse
 import datetime

@@ -11,6 +11,7 @@
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/utm.hpp"
 
 namespace nadir {
 namespace {
@@ -37,10 +38,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-int zone_of(double longitude_deg) {
-  return std::clamp(static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0)) + 1, 1, 60);
 }
 
 /// Longitudes on both sides of the antimeridian are one neighbourhood.
@@ -96,10 +93,9 @@ MetricFrame MetricFrame::around(const std::vector<GeodeticPosition>& positions) 
                             middle.latitude_deg),
                 {}, "remove the positions and give --metres-per-pixel for a map in local metres");
   }
-  const bool south = middle.latitude_deg < 0.0;
-  const int zone = zone_of(middle.longitude_deg);
-  const int epsg = (south ? 32700 : 32600) + zone;
-  return {epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, zone, south ? "south" : "north")};
+  const int epsg = utm_epsg(middle.latitude_deg, middle.longitude_deg);
+  return {epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, epsg % 100,
+                            middle.latitude_deg < 0.0 ? "south" : "north")};
 }
 
 Point3<frames::Map> MetricFrame::to_map(const GeodeticPosition& position) const {
@@ -144,13 +140,14 @@ std::optional<int> utm_zone_at(const std::string& crs, double x, double y) {
   int is_north = 0;
   const int zone = grid.GetUTMZone(&is_north);
   if (zone == 0) return std::nullopt;
-  const OGRSpatialReference known = from_epsg((is_north != 0 ? 32600 : 32700) + zone);
+  const int epsg = (is_north != 0 ? 32600 : 32700) + zone;
+  const OGRSpatialReference known = from_epsg(epsg);
   if (grid.IsSame(&known) == 0) return std::nullopt;
   double longitude = x;
   double latitude = y;
   const Transformation to_geodetic = transformation(known, from_epsg(4326));
   if (to_geodetic->Transform(1, &longitude, &latitude) == 0) return std::nullopt;
-  if (zone_of(longitude) != zone || (latitude < 0.0) == (is_north != 0)) return std::nullopt;
+  if (utm_epsg(latitude, longitude) != epsg) return std::nullopt;
   return is_north != 0 ? zone : -zone;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "nadir/io/detail/utm.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -28,8 +29,8 @@ std::string text_of(char* allocated_by_gdal) {
   return text;
 }
 
-/// The UTM zone that holds a point, to be named in a remedy; a placeholder where PROJ cannot tell.
-std::string utm_zone_at(const OGRSpatialReference& crs, double x, double y) {
+/// The UTM grid that holds a point, to be named in a remedy; a placeholder where PROJ cannot tell.
+std::string utm_grid_at(const OGRSpatialReference& crs, double x, double y) {
   OGRSpatialReference wgs84;
   wgs84.SetWellKnownGeogCS("WGS84");
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -39,8 +40,7 @@ std::string utm_zone_at(const OGRSpatialReference& crs, double x, double y) {
       std::abs(y) > 84.0) {
     return "EPSG:326NN (NN = UTM zone)";
   }
-  const int zone = std::clamp(static_cast<int>(std::floor((x + 180.0) / 6.0)) + 1, 1, 60);
-  return fmt::format("EPSG:{}", (y < 0.0 ? 32700 : 32600) + zone);
+  return fmt::format("EPSG:{}", utm_epsg(y, x));
 }
 
 void check_crs(const OGRSpatialReference& crs, const std::filesystem::path& path, double x,
@@ -56,7 +56,7 @@ void check_crs(const OGRSpatialReference& crs, const std::filesystem::path& path
   } else {
     return;
   }
-  throw input_error(path, problem, warp_line(path, "-t_srs " + utm_zone_at(crs, x, y)));
+  throw input_error(path, problem, warp_line(path, "-t_srs " + utm_grid_at(crs, x, y)));
 }
 
 void check_transform(const GeoTransform& t, GDALDataset& dataset,

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include "nadir/io/detail/utm.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -47,8 +48,7 @@ std::string utm_zone(const OGRSpatialReference& crs, const GeoTransform& t, GDAL
     throw input_error(path, "its centre lies where UTM has no zone",
                       "check its reference system, or warp it with gdalwarp to a metric one");
   }
-  const int zone = std::clamp(static_cast<int>(std::floor((x + 180.0) / 6.0)) + 1, 1, 60);
-  return fmt::format("EPSG:{}", (y < 0.0 ? 32700 : 32600) + zone);
+  return fmt::format("EPSG:{}", utm_epsg(y, x));
 }
 
 void plan_crs(const OGRSpatialReference& crs, const GeoTransform& t, GDALDataset& dataset,
