@@ -41,7 +41,8 @@ void declare(OptionTable& table, LocalizationOptions& options) {
                            "How a score becomes a weight: exp(temper * score), or the score "
                            "itself, as the paper has it.");
   table.number(stage + "temper", options.temper, {0.0, 1e4},
-               "Sharpness of the likelihood: log-likelihood = temper * score.", measured);
+               "Sharpness of the likelihood: log-likelihood = temper * score.",
+               "measured on the Aero-Ground run and simulated places");
   table.number(stage + "height_temper", options.height_temper, {0.0, 1e4},
                "The same for the score of the heights: log-likelihoods of colour and heights add "
                "up.");

@@ -26,7 +26,7 @@ struct LocalizationOptions {
   int particles = 1000;
   int start_particles = 20000;
   Likelihood likelihood = Likelihood::kTempered;
-  double temper = 50.0;
+  double temper = 100.0;
   double height_temper = 20.0;
   double min_effective_share = 0.0;
   Resampling resampling = Resampling::kSystematic;
