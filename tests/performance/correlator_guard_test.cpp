@@ -33,10 +33,17 @@ struct Width {
   std::size_t lanes;
   std::int64_t targets;  ///< of Highway: the widest among them is taken
   double measured_ratio;
+  double skylake_ratio;  ///< the same on a server of Skylake or Cascade Lake
 };
-const Width kWidths[] = {{4, HWY_SSE4 | HWY_SSSE3 | HWY_EMU128 | HWY_SCALAR | HWY_NEON, 3.9},
-                         {8, HWY_AVX2, 4.8},
-                         {16, HWY_AVX3, 6.0}};
+const Width kWidths[] = {{4, HWY_SSE4 | HWY_SSSE3 | HWY_EMU128 | HWY_SCALAR | HWY_NEON, 3.9, 2.85},
+                         {8, HWY_AVX2, 4.8, 4.8},
+                         {16, HWY_AVX3, 6.0, 6.0}};
+
+/// AVX-512 without what Ice Lake added to it: cores that start four instructions a cycle instead of
+/// five or six, of which the narrow vectors need the most.
+bool is_skylake() {
+  return (hwy::SupportedTargets() & HWY_AVX3) != 0 && (hwy::SupportedTargets() & HWY_AVX3_DL) == 0;
+}
 constexpr double kLeastShare = 0.85;
 
 constexpr int kRounds = 9;
@@ -121,9 +128,12 @@ class CorrelatorGuard : public testing::TestWithParam<Width> {
     if ((hwy::SupportedTargets() & GetParam().targets) == 0) {
       GTEST_SKIP() << "this processor has no vectors of " << GetParam().lanes << " lanes";
     }
+    measured_ratio_ = is_skylake() ? GetParam().skylake_ratio : GetParam().measured_ratio;
     hwy::SetSupportedTargetsForTest(GetParam().targets);
   }
   void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+
+  double measured_ratio_ = 0.0;
 };
 
 TEST_P(CorrelatorGuard, IsAsMuchFasterThanPlainTransformsAsMeasured) {
@@ -147,7 +157,7 @@ TEST_P(CorrelatorGuard, IsAsMuchFasterThanPlainTransformsAsMeasured) {
   }
 
   ASSERT_EQ(fused.lanes(), GetParam().lanes);
-  const double least = kLeastShare * GetParam().measured_ratio;
+  const double least = kLeastShare * measured_ratio_;
   double best = 0.0;
   for (int attempt = 0; attempt < kAttempts && best < least; ++attempt) {
     if (attempt > 0) std::this_thread::sleep_for(kFirstPause * (1 << (attempt - 1)));
