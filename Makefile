@@ -72,6 +72,5 @@ deps:
 deps-quality:
 	@tools/install-deps.sh --quality
 
-# Node and a browser may have come from elsewhere than Debian's packages.
 deps-web:
-	@command -v npm >/dev/null && command -v chromium >/dev/null || tools/install-deps.sh --web
+	@tools/install-deps.sh --web

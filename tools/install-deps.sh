@@ -37,7 +37,9 @@ fi
 missing=()
 for package in $(packages_of); do
   status="$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)"
-  [[ "$status" == installed ]] || missing+=("$package")
+  # Node and a browser may have come from elsewhere, and Debian's npm cannot be had beside another's Node.
+  [[ "$status" == installed ]] || { [[ "$sections" == web ]] && command -v "$package" >/dev/null; } ||
+    missing+=("$package")
 done
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 
