@@ -38,7 +38,7 @@ tidy: deps deps-quality  ## run clang-tidy over the library
 	cmake --preset tidy
 	tools/tidy.py -j $(JOBS)
 
-asan: deps  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
+asan: deps deps-quality  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
 	cmake --preset asan
 	cmake --build --preset asan -j $(JOBS)
 	ctest --preset asan -j $(JOBS) || tools/rerun_leak_checks.sh asan

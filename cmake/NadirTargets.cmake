@@ -36,11 +36,12 @@ function(nadir_add_library name)
   set_property(GLOBAL APPEND PROPERTY NADIR_LIBRARIES nadir_${name})
 endfunction()
 
-# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL slow]): one GoogleTest program.
+# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL slow] [TOGETHER]): one GoogleTest program.
+# CTest starts each of its tests by itself; TOGETHER, all at once: for tests that share a long SetUpTestSuite.
 # The label `slow` leaves it out under the sanitizers. What links a library that computes on several
 # threads is labelled `threads` and runs under ThreadSanitizer.
 function(nadir_add_test name)
-  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "TOGETHER" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE nadir_build_flags ${arg_LIBRARIES} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
@@ -52,5 +53,10 @@ function(nadir_add_test name)
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} PROPERTIES ${properties})
+  if(arg_TOGETHER)
+    add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} PROPERTIES ${properties})
+  endif()
 endfunction()

@@ -45,8 +45,9 @@ std::vector<std::pair<std::string, double>> medians(const std::vector<MappedFram
   std::vector<std::pair<std::string, double>> result;
   result.emplace_back("decode", over([](const MappedFrame& frame) { return frame.decode_ms; }));
   for (const auto& [name, member] : kStages) {
-    result.emplace_back(
-        name, over([member](const MappedFrame& frame) { return frame.statistics.ms.*member; }));
+    result.emplace_back(name, over([stage = member](const MappedFrame& frame) {
+                          return frame.statistics.ms.*stage;
+                        }));
   }
   result.emplace_back("render", median(render_ms));
   return result;
