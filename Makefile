@@ -11,7 +11,15 @@ export CCACHE_NOHASHDIR ?= 1
 # ThreadSanitizer cannot place its shadow memory where the kernel randomises addresses too widely.
 NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
 
-.PHONY: help demo test bench format tidy asan tsan docs web web-e2e clean deps deps-quality deps-web build
+# Of `make tidy`: --all looks at every source. Of `make fuzz`: seconds for each target, and which share of the targets.
+TIDY ?=
+SECONDS_EACH ?= 60
+PIECE ?= 1/1
+# Of `make nightly`: PARTS=tidy,web and BUDGET=60 (minutes).
+PARTS ?=
+BUDGET ?=
+
+.PHONY: help demo test program bench format tidy asan asan-all tsan scalar fuzz nightly docs web web-e2e clean deps deps-quality deps-web build
 
 help:  ## print this
 	@sed -n 's/^\([a-z0-9-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -21,6 +29,11 @@ demo: build  ## simulate a drive, localize it, write out/demo
 
 test: build  ## build and run all tests
 	ctest --preset release -j $(JOBS)
+
+program: deps  ## build the program and test it from the outside: whole runs, packaging
+	cmake --preset release
+	cmake --build --preset program -j $(JOBS)
+	ctest --preset program -j $(JOBS)
 
 bench: build  ## measure against peers, write benchmarks/reports/DATE-peers.md; with NADIR_DATA, both mappings too
 	benchmarks/peers_report.py $(if $(NADIR_DATA),--data $(NADIR_DATA))
@@ -34,19 +47,37 @@ endif
 format: deps-quality  ## format every C++ file in place
 	git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format -i
 
-tidy: deps deps-quality  ## run clang-tidy over the library
+tidy: deps deps-quality  ## run clang-tidy over what changed since tools/tidy-base.txt; TIDY=--all: over everything
 	cmake --preset tidy
-	tools/tidy.py -j $(JOBS)
+	tools/tidy.py -j $(JOBS) $(TIDY)
 
-asan: deps deps-quality  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer, slow ones left out
+asan: deps deps-quality  ## the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset asan
 	cmake --build --preset asan -j $(JOBS)
 	ctest --preset asan -j $(JOBS) || tools/rerun_leak_checks.sh asan
+
+asan-all: deps deps-quality  ## all tests under them, whole runs of the program too: an hour
+	cmake --preset asan
+	cmake --build build/asan -j $(JOBS)
+	ctest --preset asan-all -j $(JOBS) || tools/rerun_leak_checks.sh asan-all
 
 tsan: deps  ## the tests that use threads, under ThreadSanitizer
 	cmake --preset tsan
 	$(NO_ASLR) cmake --build --preset tsan -j $(JOBS)
 	$(NO_ASLR) ctest --preset tsan -j $(JOBS)
+
+scalar: deps  ## the tests of the matching without SIMD
+	cmake --preset scalar
+	cmake --build --preset scalar -j $(JOBS)
+	ctest --preset scalar -j $(JOBS)
+
+fuzz: deps deps-quality  ## fuzz every reader, SECONDS_EACH=60 seconds each; PIECE=1/6: the first sixth of them
+	cmake --preset fuzz
+	cmake --build --preset fuzz -j $(JOBS)
+	tools/fuzz.py --seconds $(SECONDS_EACH) --piece $(PIECE) --jobs $(JOBS)
+
+nightly:  ## what .ci/run leaves out, in parts: PARTS=tidy,web, BUDGET=60 minutes; benchmarks/reports/*-nightly.md
+	tools/nightly.py $(if $(PARTS),--parts $(PARTS)) $(if $(BUDGET),--budget $(BUDGET))
 
 docs: build  ## write docs/options.md and the figures that the project draws itself
 	build/release/bin/nadir config dump --markdown > build/options.md
@@ -55,6 +86,7 @@ docs: build  ## write docs/options.md and the figures that the project draws its
 
 web: deps-web  ## check, test and build the viewer's page, web/dist
 	cd web && npm ci --no-audit --no-fund && npm run check && npm test && npm run build
+	tools/web_sources.sh --write
 
 web-e2e: build web  ## the viewer in a headless Chromium, on a small simulated run
 	tools/web_e2e.sh

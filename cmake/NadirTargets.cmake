@@ -36,23 +36,29 @@ function(nadir_add_library name)
   set_property(GLOBAL APPEND PROPERTY NADIR_LIBRARIES nadir_${name})
 endfunction()
 
-# nadir_add_test(NAME SOURCES file... LIBRARIES target... [LABEL slow] [TOGETHER]): one GoogleTest program.
+# nadir_add_test(NAME SOURCES file... LIBRARIES target... [SLOW] [TOGETHER]): one GoogleTest program.
 # CTest starts each of its tests by itself; TOGETHER, all at once: for tests that share a long SetUpTestSuite.
-# The label `slow` leaves it out under the sanitizers. What links a library that computes on several
-# threads is labelled `threads` and runs under ThreadSanitizer.
+# SLOW is for whole runs of the program and for minutes under a sanitizer: built by nadir_program_tests,
+# labelled `slow`. All others are unit tests, built by nadir_unit_tests and labelled `unit`, or
+# `unit-threads` where they link a library that computes on several threads: nadir_thread_tests.
+# .ci/run takes the unit tests under the sanitizers and the slow ones in the release build.
 function(nadir_add_test name)
-  cmake_parse_arguments(arg "TOGETHER" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;TOGETHER" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE nadir_build_flags ${arg_LIBRARIES} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  if(NOT arg_LABEL AND arg_LIBRARIES MATCHES "nadir::(ground_mapping|map_matching|nadir)(;|$)")
-    set(arg_LABEL threads)
+  if(arg_SLOW)
+    set(label slow)
+    add_dependencies(nadir_program_tests ${name})
+  elseif(arg_LIBRARIES MATCHES "nadir::(ground_mapping|map_matching|nadir)(;|$)")
+    set(label unit-threads)
+    add_dependencies(nadir_unit_tests ${name})
     add_dependencies(nadir_thread_tests ${name})
+  else()
+    set(label unit)
+    add_dependencies(nadir_unit_tests ${name})
   endif()
-  set(properties TIMEOUT 600)
-  if(arg_LABEL)
-    list(APPEND properties LABELS ${arg_LABEL})
-  endif()
+  set(properties TIMEOUT 600 LABELS ${label})
   if(arg_TOGETHER)
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${name} PROPERTIES ${properties} COST 1000)  # long, so first

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs clang-tidy by the compile commands of `cmake --preset tidy`, over the library but for its figures.
+"""Runs clang-tidy over src/nadir and apps, by the compile commands of `cmake --preset tidy`.
 
-src/nadir/report and apps have not been brought to pass yet: they belong in FOLDERS next.
+tools/tidy-base.txt names the newest commit at which all of it was looked at (`make nightly PART=tidy`, or
+`tools/tidy.py --all`). Only what has changed since, in commits or in the working tree, and what includes it, is
+looked at; everything with --all, where that commit is not in the history, and where .clang-tidy or this
+script has changed since.
 
 Most of clang-tidy's time goes into the headers of Eigen and OpenCV. So the sources of a target are
 looked at in groups, each as one source that includes them, which the static analyzer knows as
@@ -27,16 +30,66 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = [f"src/nadir/{module}" for module in
-           ("core", "aerial_mapping", "ground_mapping", "map_matching", "localization",
-            "evaluation", "simulation", "io")]
-FOLDERS.append("src/nadir/localizer.cpp")
+FOLDERS = ("src/nadir", "apps")
+BASE = ROOT / "tools" / "tidy-base.txt"
+# A change of these is a change of every verdict.
+RULES = {".clang-tidy", "tools/tidy.py"}
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 # clang-tidy walks through Eigen's headers with every check: without the code for SIMD that is a
 # fifth less, and nothing of ours depends on it.
 SHORTER = ["--extra-arg=-DEIGEN_DONT_VECTORIZE"]
 
 
 GROUP = 8
+
+
+def git(*arguments):
+    """The words that git prints; None where it fails."""
+    done = subprocess.run(["git", "-C", str(ROOT), *arguments], check=False, capture_output=True, text=True)
+    return done.stdout.split() if done.returncode == 0 else None
+
+
+def changed_since(base):
+    """Files changed since a commit, relative to ROOT, untracked ones too; None where it is not in the history."""
+    if not base or git("merge-base", "--is-ancestor", base, "HEAD") is None:
+        return None
+    return {*git("diff", "--name-only", "--no-renames", base), *git("ls-files", "--others", "--exclude-standard")}
+
+
+def with_includers(changed):
+    """The changed files and all of FOLDERS that includes one of them, directly or not."""
+    includers = collections.defaultdict(set)
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*.[hc]pp")):
+            for header in INCLUDE.findall(path.read_text(encoding="utf-8")):
+                for root in (path.parent, ROOT / "src", ROOT / "apps" / "nadir"):
+                    if (root / header).is_file():
+                        includers[(root / header).resolve()].add(path)
+                        break
+    reached = {(ROOT / name).resolve() for name in changed}
+    waiting = list(reached)
+    while waiting:
+        new = includers[waiting.pop()] - reached
+        reached |= new
+        waiting += new
+    return reached
+
+
+def chosen(commands, everything):
+    """The commands of the sources to look at; says which and why."""
+    base = next((line for line in BASE.read_text(encoding="utf-8").split("\n") if line and line[0] != "#"), "")
+    changed = None if everything else changed_since(base)
+    why = "--all" if everything else f"the base {base[:12]} is not in the history" if changed is None else ""
+    if changed is not None and changed & RULES:
+        why = f"{', '.join(sorted(changed & RULES))} changed since the base {base[:12]}"
+    if why:
+        print(f"clang-tidy: all {len(commands)} sources ({why})", flush=True)
+        return commands
+    reached = with_includers(changed)
+    some = {source: command for source, command in commands.items() if source in reached}
+    print(f"clang-tidy: {len(some)} of {len(commands)} sources: what changed since the base {base[:12]}, "
+          "and what includes it", flush=True)
+    return some
 
 
 def commands_of(build):
@@ -97,6 +150,7 @@ def tidy(sources, arguments, build, common):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("-j", "--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--all", action="store_true", help="look at every source, whatever the base")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "tidy")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
@@ -104,7 +158,7 @@ def main():
     version = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
     common = (ROOT / ".clang-tidy").read_bytes() + version
 
-    commands = commands_of(build)
+    commands = chosen(commands_of(build), arguments.all)
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = [pool.submit(tidy, sources, commands[sources[0]][1], build, common)

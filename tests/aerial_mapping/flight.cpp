@@ -92,6 +92,17 @@ Eigen::Vector3d Terrain::meet(const Eigen::Vector3d& centre,
   return p;
 }
 
+namespace {
+
+/// FNV-1a of the pixels: the same photo has the same digest in every flight.
+std::string digest_of(const Raster<std::uint8_t>& pixels) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const std::uint8_t value : pixels.values()) hash = (hash ^ value) * 1099511628211ULL;
+  return std::to_string(hash);
+}
+
+}  // namespace
+
 Flight fly(const std::shared_ptr<const Terrain>& terrain, const FlightPlan& plan,
            const FlightErrors& errors) {
   Flight flight;
@@ -154,6 +165,7 @@ Flight fly(const std::shared_ptr<const Terrain>& terrain, const FlightPlan& plan
             pixels->at(u, v, channel) =
                 static_cast<std::uint8_t>(std::clamp(rgb[channel], 0.0, 255.0));
         }
+      photo.digest = digest_of(*pixels);
       photo.load = [pixels] { return *pixels; };
       flight.set.photos.push_back(photo);
     }
