@@ -13,8 +13,8 @@ NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
 
 # Of `make tidy`: --all looks at every source. Of `make fuzz`: seconds for each target, and which share of the targets.
 TIDY ?=
-SECONDS_EACH ?= 60
-PIECE ?= 1/1
+FUZZ_SECONDS ?= 60
+FUZZ_PART ?= 1/1
 # Of `make nightly`: PARTS=tidy,web and BUDGET=60 (minutes).
 PARTS ?=
 BUDGET ?=
@@ -71,10 +71,10 @@ scalar: deps  ## the tests of the matching without SIMD
 	cmake --build --preset scalar -j $(JOBS)
 	ctest --preset scalar -j $(JOBS)
 
-fuzz: deps deps-quality  ## fuzz every reader, SECONDS_EACH=60 seconds each; PIECE=1/6: the first sixth of them
+fuzz: deps deps-quality  ## fuzz every reader, FUZZ_SECONDS=60 each; FUZZ_PART=1/6: the first sixth of them
 	cmake --preset fuzz
 	cmake --build --preset fuzz -j $(JOBS)
-	tools/fuzz.py --seconds $(SECONDS_EACH) --piece $(PIECE) --jobs $(JOBS)
+	tools/fuzz.py --seconds $(FUZZ_SECONDS) --part $(FUZZ_PART) --jobs $(JOBS)
 
 nightly:  ## what .ci/run leaves out, in parts: PARTS=tidy,web, BUDGET=60 minutes; benchmarks/reports/*-nightly.md
 	tools/nightly.py $(if $(PARTS),--parts $(PARTS)) $(if $(BUDGET),--budget $(BUDGET))

@@ -25,7 +25,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "benchmarks" / "reports"
 LOGS = ROOT / "build" / "nightly"
-FUZZ_PIECES = 6
+FUZZ_PARTS = 6
 
 # Part -> shell command, run in the root of the tree. In the order in which they pay.
 PARTS = {
@@ -37,8 +37,8 @@ PARTS = {
               "build/release/bin/faults_test",
     "packages": "make --no-print-directory build && tests/packaging/run.sh find-package build/release "
                 "&& tests/packaging/run.sh add-subdirectory",
-    **{f"fuzz-{piece}": f"make --no-print-directory fuzz SECONDS_EACH=300 PIECE={piece}/{FUZZ_PIECES}"
-       for piece in range(1, FUZZ_PIECES + 1)},
+    **{f"fuzz-{part}": f"make --no-print-directory fuzz FUZZ_SECONDS=300 FUZZ_PART={part}/{FUZZ_PARTS}"
+       for part in range(1, FUZZ_PARTS + 1)},
     "asan": "make --no-print-directory asan-all",
     "bench": "make --no-print-directory bench",
     "fresh-debian": "tools/fresh_debian.sh",

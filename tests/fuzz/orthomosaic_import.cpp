@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nadir/io/orthomosaic_import.hpp"
+
+#include <cmath>
+
+#include "fuzz/fuzz_target.hpp"
+
+// A byte of options, then the map of another program.
+NADIR_FUZZ_TARGET(orthomosaic_import) {
+  const auto wishes = nadir::fuzz::taken<std::uint8_t>(input);
+  nadir::ImportOptions options;
+  options.metres_per_pixel = 0.1;
+  if ((wishes & 1U) != 0) options.resolution_m = 0.5;
+  if ((wishes & 2U) != 0) options.collar = nadir::Collar::kWhite;
+  if ((wishes & 4U) != 0) options.crs = "EPSG:32632";
+  const auto imported =
+      nadir::import_orthomosaic(nadir::fuzz::as_file("import.tif", input), options);
+  nadir::fuzz::require(imported.map.geo.resolution > 0.0, "no resolution");
+}
