@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/viewer_server.hpp"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
@@ -15,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "loopback_client.hpp"
 #include "nadir/core/random.hpp"
 #include "nadir/io/metric_frame.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
@@ -27,6 +24,7 @@ namespace {
 
 constexpr int kFrames = 3;
 constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::string_view kAskForEvents = "GET /api/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
 
 Orthomosaic blocks(int width, int height) {
   Orthomosaic map{{width, height}, {width, height, 255}, {0.0, 0.1 * height, 0.1, {}}};
@@ -264,15 +262,8 @@ TEST_F(ViewerServerTest, ManyWatchersHearOfEveryFrame) {
 
 TEST_F(ViewerServerTest, AStalledClientHoldsNobodyUp) {
   // It asks for the events and never reads them.
-  const int stalled = ::socket(AF_INET, SOCK_STREAM, 0);
-  ASSERT_GE(stalled, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(::connect(stalled, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  const std::string request = "GET /api/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
-  ASSERT_EQ(::send(stalled, request.data(), request.size(), 0), std::ssize(request));
+  const test::LoopbackClient stalled(server_->port());
+  ASSERT_TRUE(stalled.send(kAskForEvents));
   while (server_->watchers() < 1) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 
   const std::string frame(200'000, 'x');  // far more than the sockets' buffers hold
@@ -281,7 +272,76 @@ TEST_F(ViewerServerTest, AStalledClientHoldsNobodyUp) {
   const std::chrono::duration<double> publishing = std::chrono::steady_clock::now() - started;
   EXPECT_LT(publishing.count(), 4.0);  // less than the time after which the client is given up
   EXPECT_EQ(client()->Get("/api/run")->status, 200);
-  ::close(stalled);
+}
+
+TEST_F(ViewerServerTest, APageIsServedBeside500SilentConnections) {
+  std::vector<test::LoopbackClient> silent;
+  for (int i = 0; i < 500; ++i) silent.emplace_back(server_->port());
+  const auto started = std::chrono::steady_clock::now();
+  const auto page = client()->Get("/");
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - started;
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_LT(waited.count(), 1.0);
+}
+
+TEST_F(ViewerServerTest, AWatcherStaysForAsLongAsItReads) {
+  ServerOptions options;
+  options.port = 0;
+  options.limits.to_ask = options.limits.between = options.limits.to_take =
+      std::chrono::milliseconds(200);
+  ViewerServer server(*run_, &events_, {}, options);
+  server.start();
+  const test::LoopbackClient watcher(server.port());
+  watcher.send(kAskForEvents);
+  const auto hears = [&](const std::string& text) {
+    events_.publish("frame", text);
+    return watcher.read_until(text, std::chrono::seconds(20)).ends_with(text);
+  };
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(hears("frame " + std::to_string(i)));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // nothing happens
+  ASSERT_TRUE(hears("after a pause"));
+  // It is not in the way of those who come later, however many they are.
+  std::vector<test::LoopbackClient> silent;
+  for (int i = 0; i < 500; ++i) silent.emplace_back(server.port());
+  ASSERT_TRUE(hears("in a crowd"));
+}
+
+/// An interrupt comes while browsers watch and others hold their connections open.
+TEST_F(ViewerServerTest, StopsBeside500OpenConnections) {
+  std::vector<test::LoopbackClient> crowd;
+  for (int i = 0; i < 500; ++i) {
+    crowd.emplace_back(server_->port());
+    if (i % 3 == 0) crowd.back().send("GET / HTTP/1.1\r\nHost: 127");
+  }
+  for (int i = 0; i < 12; ++i) {
+    crowd.emplace_back(server_->port());
+    crowd.back().send(kAskForEvents);
+  }
+  while (server_->watchers() < 12) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const auto started = std::chrono::steady_clock::now();
+  server_->stop();
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - started;
+  EXPECT_LT(waited.count(), 3.0);
+  EXPECT_EQ(server_->watchers(), 0);
+}
+
+TEST_F(ViewerServerTest, RefusesTheNewestOfTooManyWatchers) {
+  std::vector<test::LoopbackClient> watchers;
+  for (int i = 0; i < 40; ++i) watchers.emplace_back(server_->port());
+  for (const test::LoopbackClient& watcher : watchers) watcher.send(kAskForEvents);
+  int watching = 0;
+  int refused = 0;
+  for (const test::LoopbackClient& watcher : watchers) {
+    const std::string answer = watcher.read_until("\r\n", std::chrono::seconds(20));
+    watching += answer.starts_with("HTTP/1.1 200 ") ? 1 : 0;
+    refused += answer.starts_with("HTTP/1.1 503 ") ? 1 : 0;
+  }
+  EXPECT_EQ(watching, 12);
+  EXPECT_EQ(refused, 28);
 }
 
 }  // namespace

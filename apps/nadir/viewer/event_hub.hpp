@@ -5,7 +5,9 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -28,16 +30,18 @@ class EventHub {
   /// No more events come: every waiting watcher wakes.
   void close();
 
-  /// The kept events after `id`, waiting up to `patience` for the first one; empty where none came.
-  std::vector<ViewerEvent> after(std::uint64_t id, std::chrono::milliseconds patience) const;
+  /// The kept events after `id`, waiting up to `patience`, or until a stop is asked for, for the
+  /// first one; empty where none came.
+  std::vector<ViewerEvent> after(std::uint64_t id, std::chrono::milliseconds patience,
+                                 std::stop_token stop = {}) const;
   std::uint64_t newest() const;
   bool closed() const;
 
  private:
   std::size_t capacity_;
   mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
-  std::deque<ViewerEvent> events_;
+  mutable std::condition_variable_any changed_;
+  std::deque<std::shared_ptr<const ViewerEvent>> events_;
   std::uint64_t newest_ = 0;
   bool closed_ = false;
 };

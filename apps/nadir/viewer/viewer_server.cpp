@@ -2,15 +2,15 @@
 #include "viewer_server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "../base64.hpp"
+#include "http_server.hpp"
 #include "nadir/core/error.hpp"
 #include "web_assets.hpp"
 
@@ -21,10 +21,8 @@ constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
-constexpr std::size_t kLargestPost = 4096;  ///< bytes
-constexpr double kLargestSpread = 1000.0;   ///< metres
+constexpr double kLargestSpread = 1000.0;  ///< metres
 constexpr auto kHeartbeat = std::chrono::seconds(5);
-constexpr int kThreadsBesideWatchers = 6;
 
 bool is_loopback(const std::string& address) {
   return address == "127.0.0.1" || address == "localhost" || address == "::1";
@@ -94,10 +92,10 @@ struct ViewerServer::State {
   const EventHub* events;
   std::function<void(const Prior&)> restart;
   ServerOptions options;
-  httplib::Server server;
-  std::thread thread;
+  HttpServer server{options.limits};
   int port = 0;
   std::atomic<int> watchers{0};
+  std::mutex document_mutex{};
 
   bool allowed_host(const httplib::Request& request) const {
     const std::string host = host_without_port(request.get_header_value("Host"));
@@ -114,12 +112,6 @@ struct ViewerServer::State {
 };
 
 void ViewerServer::State::set_policies() {
-  const auto threads = static_cast<std::size_t>(options.most_watchers + kThreadsBesideWatchers);
-  server.new_task_queue = [threads] { return new httplib::ThreadPool(threads); };
-  server.set_payload_max_length(kLargestPost);
-  server.set_keep_alive_timeout(2);
-  server.set_write_timeout(5, 0);  // a client that takes nothing for so long is given up
-  server.set_tcp_nodelay(true);
   server.set_pre_routing_handler([this](const auto& request, auto& response) {
     response.set_header("Content-Security-Policy", kContentPolicy);
     response.set_header("X-Content-Type-Options", "nosniff");
@@ -161,6 +153,8 @@ void ViewerServer::State::serve_page() {
 
 void ViewerServer::State::serve_run() {
   server.Get("/api/run", [this](const auto&, auto& response) {
+    // One at a time: as a tree, a long run takes a hundred times the memory of its text.
+    const std::scoped_lock lock(document_mutex);
     Json document = run.document();
     document["newest_event"] = events == nullptr ? 0 : events->newest();
     document["can_restart"] = restart != nullptr && run.live();
@@ -211,7 +205,8 @@ void ViewerServer::State::serve_pictures() {
 void ViewerServer::State::serve_events() {
   server.Get("/api/events", [this](const auto& request, auto& response) {
     if (events == nullptr) return refuse(response, 404, "the run is finished: nothing happens");
-    if (watchers.load() >= options.most_watchers) {
+    if (++watchers > options.most_watchers) {
+      --watchers;
       return refuse(response, 503, "too many watchers");
     }
     std::uint64_t last = 0;
@@ -221,12 +216,12 @@ void ViewerServer::State::serve_events() {
       const std::string after = request.get_param_value("after");
       std::from_chars(after.data(), after.data() + after.size(), last);
     }
-    ++watchers;
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
         "text/event-stream",
         [this, last](std::size_t, httplib::DataSink& sink) mutable {
-          const std::vector<ViewerEvent> news = events->after(last, kHeartbeat);
+          const std::vector<ViewerEvent> news = events->after(last, kHeartbeat, server.stopping());
+          if (server.stopping().stop_requested()) return false;
           std::string text = news.empty() ? ": still here\n\n" : "";
           for (const ViewerEvent& event : news) {
             text +=
@@ -267,7 +262,7 @@ void ViewerServer::State::serve_initial_pose() {
 
 ViewerServer::ViewerServer(const RunView& run, const EventHub* events,
                            std::function<void(const Prior&)> restart, const ServerOptions& options)
-    : state_(new State{run, events, std::move(restart), options, {}, {}, 0, {}}) {
+    : state_(new State{run, events, std::move(restart), options}) {
   state_->set_policies();
   state_->serve_run();
   state_->serve_pictures();
@@ -280,26 +275,15 @@ ViewerServer::~ViewerServer() { stop(); }
 
 void ViewerServer::start() {
   const ServerOptions& options = state_->options;
-  const char* address = options.listen.c_str();
-  if (options.port == 0) {
-    state_->port = state_->server.bind_to_any_port(address);
-  } else if (state_->server.bind_to_port(address, options.port)) {
-    state_->port = options.port;
-  }
-  if (state_->port <= 0) {
+  state_->port = state_->server.start(options.listen, options.port);
+  if (state_->port == 0) {
     throw Error(ErrorKind::kUsage, "cannot listen there",
                 fmt::format("{}:{}", options.listen, options.port),
                 "another program may have the port: give --port 0 for any free one");
   }
-  state_->thread = std::thread([this] { state_->server.listen_after_bind(); });
-  while (!state_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-void ViewerServer::stop() {
-  if (!state_->thread.joinable()) return;
-  state_->server.stop();
-  state_->thread.join();
-}
+void ViewerServer::stop() { state_->server.stop(); }
 
 int ViewerServer::port() const { return state_->port; }
 

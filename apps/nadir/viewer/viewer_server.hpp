@@ -7,14 +7,16 @@
 
 #include "../prior.hpp"
 #include "event_hub.hpp"
+#include "http_limits.hpp"
 #include "run_view.hpp"
 
 namespace nadir::cli {
 
 struct ServerOptions {
   std::string listen = "127.0.0.1";
-  int port = 8642;  ///< 0 = any free one
-  int most_watchers = 32;
+  int port = 8642;         ///< 0 = any free one
+  int most_watchers = 32;  ///< open event streams
+  HttpLimits limits;
 };
 
 /// Serves the viewer's page and a run to browsers (docs/viewer.md has the addresses). Nothing on
@@ -33,6 +35,7 @@ class ViewerServer {
   /// Binds and answers on threads of its own. Throws Error (usage) where the address cannot be
   /// bound.
   void start();
+  /// Ends every connection, event streams too, and waits for the answers that are being computed.
   void stop();
   int port() const;
   std::string url() const;
