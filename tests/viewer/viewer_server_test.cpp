@@ -81,6 +81,33 @@ TEST(RunView, TellsWhereOnTheEarthTheCornersAre) {
   EXPECT_TRUE(local.document()["map"]["corners"].is_null());
 }
 
+TEST(RunView, DoesNotKeepTheRunWaitingWhileItTellsALongOne) {
+  const test::TemporaryFolder folder;
+  write_site(folder.path());
+  RunView run({folder.path(), folder / "map.tif"}, LocalizerOptions{}, folder / "particles.bin",
+              true);
+  for (int i = 0; i < 20'000; ++i) run.add(ViewFrame{});
+  using Seconds = std::chrono::duration<double>;
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  std::atomic<bool> told{false};
+  Seconds telling{0.0};
+  std::thread watcher([&] {
+    const auto started = now();
+    const Json document = run.document();
+    telling = now() - started;
+    told = true;
+  });
+  Seconds longest{0.0};
+  while (!told) {
+    const auto started = now();
+    run.add(ViewFrame{});
+    longest = std::max<Seconds>(longest, now() - started);
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  watcher.join();
+  EXPECT_LT(longest.count(), 0.3 * telling.count());
+}
+
 /// A site of three frames, the view of its live run, and a server.
 class ViewerServerTest : public ::testing::Test {
  protected:

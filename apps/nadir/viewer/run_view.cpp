@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 /// How far around the estimate a heat map looks.
 constexpr double kHeatHalfSize = 8.0;
+/// Frames copied while the run cannot add one: microseconds.
+constexpr std::ptrdiff_t kCopiedAtATime = 256;
 
 EncodedImage encode_png(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
@@ -139,14 +141,13 @@ std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) 
 }
 
 void RunView::add(ViewFrame frame) {
-  {
-    // At once, and not when first asked: the file of a live run changes its name when the run ends.
-    const std::scoped_lock lock(particles_mutex_);
-    if (!particles_ && fs::exists(particle_file_)) {
-      particles_ = std::make_unique<ParticleLogReader>(particle_file_);
-    }
+  // At once, and not when first asked: the file of a live run changes its name when the run ends.
+  std::unique_ptr<ParticleLogReader> opened;
+  if (particle_log() == nullptr && fs::exists(particle_file_)) {
+    opened = std::make_unique<ParticleLogReader>(particle_file_);
   }
   const std::scoped_lock lock(mutex_);
+  if (particles_ == nullptr) particles_ = std::move(opened);
   frames_.push_back(std::move(frame));
 }
 
@@ -171,18 +172,38 @@ std::optional<ViewFrame> RunView::frame_at(std::size_t frame) const {
   return frames_[frame];
 }
 
-/// The odometry, laid onto the first estimate; the caller holds the mutex.
-Json RunView::odometry_track() const {
+/// All frames, copied a few at a time: the run may add one in between and does not wait for a long
+/// copy.
+std::vector<ViewFrame> RunView::frames() const {
+  std::vector<ViewFrame> frames;
+  frames.reserve(size());
+  for (;;) {
+    const std::scoped_lock lock(mutex_);
+    const auto first = frames_.begin() + std::ssize(frames);
+    const auto count = std::min<std::ptrdiff_t>(frames_.end() - first, kCopiedAtATime);
+    if (count == 0) return frames;
+    frames.insert(frames.end(), first, first + count);
+  }
+}
+
+/// Null until the run has one.
+ParticleLogReader* RunView::particle_log() const {
+  const std::scoped_lock lock(mutex_);
+  return particles_.get();
+}
+
+/// The odometry, laid onto the first estimate.
+Json RunView::odometry_track(const std::vector<ViewFrame>& frames) const {
   Json track = Json::array();
-  if (!sequence_.odometry || frames_.empty()) return track;
+  if (!sequence_.odometry || frames.empty()) return track;
   const Odometry& odometry = *sequence_.odometry;
   const auto at = [&](Stamp stamp) {
     return std::ranges::lower_bound(odometry, stamp, {}, &StampedPose<frames::Odom>::stamp);
   };
-  const auto first = at(frames_.front().stamp);
+  const auto first = at(frames.front().stamp);
   if (first == odometry.end()) return track;
-  const auto map_from_odom = frames_.front().map_from_robot * first->pose.inverse();
-  for (auto pose = first; pose != odometry.end() && pose->stamp <= frames_.back().stamp; ++pose) {
+  const auto map_from_odom = frames.front().map_from_robot * first->pose.inverse();
+  for (auto pose = first; pose != odometry.end() && pose->stamp <= frames.back().stamp; ++pose) {
     const Pose2 placed = map_from_odom * pose->pose;
     track.push_back({placed.x, placed.y});
   }
@@ -200,21 +221,21 @@ Json RunView::document() const {
                      {"levels", tiles_->levels()},
                      {"tile_size", MapTiles::kTileSize},
                      {"corners", corners_on_earth(*tiles_)}};
-  const std::scoped_lock lock(mutex_);
-  document["live"] = live_;
-  document["odometry"] = odometry_track();
+  document["live"] = live();
+  const std::vector<ViewFrame> frames = this->frames();
+  document["odometry"] = odometry_track(frames);
   document["frames"] = Json::array();
-  for (const ViewFrame& frame : frames_) document["frames"].push_back(to_json(frame));
+  for (const ViewFrame& frame : frames) document["frames"].push_back(to_json(frame));
   return document;
 }
 
 std::optional<std::vector<LoggedParticle>> RunView::particles(std::size_t frame) const {
-  const std::scoped_lock lock(particles_mutex_);
-  if (!particles_ || !frame_at(frame)) return std::nullopt;
-  auto particles = particles_->read(frame);
+  ParticleLogReader* const log = particle_log();
+  if (log == nullptr || !frame_at(frame)) return std::nullopt;
+  auto particles = log->read(frame);
   if (!particles) return std::nullopt;
   // Relative to the map's corner, which the client knows, and not to the log's own anchor.
-  const Point2<frames::Map> anchor = particles_->anchor();
+  const Point2<frames::Map> anchor = log->anchor();
   for (LoggedParticle& particle : *particles) {
     particle.x += static_cast<float>(anchor.x - tiles_->geo().west);
     particle.y += static_cast<float>(anchor.y - tiles_->geo().north);

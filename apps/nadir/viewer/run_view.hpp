@@ -35,6 +35,7 @@ class RunView {
   /// are empty. Throws Error (input).
   static std::unique_ptr<RunView> open(const std::filesystem::path& run, RunSources sources);
 
+  /// Waits for nobody who asks: what they are told is put together from copies.
   void add(ViewFrame frame);
   void finish();
 
@@ -57,7 +58,9 @@ class RunView {
 
  private:
   std::optional<ViewFrame> frame_at(std::size_t frame) const;
-  Json odometry_track() const;
+  std::vector<ViewFrame> frames() const;
+  ParticleLogReader* particle_log() const;
+  Json odometry_track(const std::vector<ViewFrame>& frames) const;
 
   RunSources sources_;
   Sequence sequence_;
@@ -65,11 +68,10 @@ class RunView {
   std::filesystem::path particle_file_;
   std::unique_ptr<MapTiles> tiles_;
   std::string settings_ = "{}";  ///< what the manifest says, as JSON
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;     ///< of the next three, and held for microseconds
   std::vector<ViewFrame> frames_;
   bool live_ = false;
-  mutable std::mutex particles_mutex_;
-  std::unique_ptr<ParticleLogReader> particles_;
+  std::unique_ptr<ParticleLogReader> particles_;  ///< stays, once it is there
   mutable std::mutex index_mutex_;
   mutable std::unique_ptr<MapIndex> index_;  ///< made when the first heat map is asked for
 };
