@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "nadir/core/error.hpp"
 
@@ -114,7 +116,9 @@ void Localizer::use_map(const Orthomosaic& map) {
                 "the new version of the map has another reference system or resolution", {},
                 "start the localization anew");
   }
-  if (map_) map_.emplace(map, options_.matching);
+  if (!map_) return;
+  MapIndex next(map, options_.matching);  // where it throws, the map before is still there
+  map_ = std::move(next);
 }
 
 Estimate Localizer::update(const Frame& frame) {
@@ -124,34 +128,43 @@ Estimate Localizer::update(const Frame& frame) {
   Estimate estimate;
   estimate.stamp = frame.stamp;
   const std::optional<Motion2> motion = motion_since_previous(frame);
+  // A copy, and taken over at the end: a frame that throws on the way has moved no particle.
+  ParticleFilter filter = filter_;
   // Drawn anew only now, so that until here particles() showed the weights of the last frame.
   if (previous_) {
-    if (weighed_) estimate.resampled = filter_.resample_if_needed();
-    filter_.predict(motion.value_or(last_motion_));
+    if (weighed_) estimate.resampled = filter.resample_if_needed();
+    filter.predict(motion.value_or(last_motion_));
   }
-  if (motion) last_motion_ = *motion;
   if (!motion) estimate.status = EstimateStatus::kNoOdometry;
 
-  const std::vector<Look> looks = look(frame);
-  weighed_ = weigh(looks);
-  if (!weighed_) estimate.status = why_not(looks);
+  const std::vector<Look> looks = look(frame, filter.particles().poses);
+  const bool weighed = weigh(filter, looks);
+  if (!weighed) estimate.status = why_not(looks, filter.particles().weights);
 
   const PoseScore best = looks.empty() ? kNothing : best_of(looks.front().scores);
   estimate.best_score = best.score;
   estimate.valid_weight = best.valid_weight;
-  estimate.effective_particles = filter_.effective_particles();
-  const std::vector<Cluster> clusters = filter_.clusters();
+  estimate.effective_particles = filter.effective_particles();
+  const std::vector<Cluster> clusters = filter.clusters();
   estimate.map_from_robot = clusters.front().mean;
   estimate.covariance = clusters.front().covariance + map_error(options_.localization);
   estimate.cluster_mass = clusters.front().mass;
   estimate.clusters = static_cast<int>(clusters.size());
-  previous_ = frame;
+
+  std::optional<Frame> taken(frame);
+  // From here on nothing throws.
+  static_assert(std::is_nothrow_move_assignable_v<ParticleFilter>);
+  static_assert(std::is_nothrow_move_assignable_v<Frame>);
+  filter_ = std::move(filter);
+  previous_ = std::move(taken);
+  weighed_ = weighed;
+  if (motion) last_motion_ = *motion;
   return estimate;
 }
 
-std::vector<Localizer::Look> Localizer::look(const Frame& frame) const {
+std::vector<Localizer::Look> Localizer::look(const Frame& frame,
+                                             const std::vector<Pose2>& poses) const {
   const LocalizationOptions& options = options_.localization;
-  const std::vector<Pose2>& poses = filter_.particles().poses;
   std::vector<Look> looks;
   if (map_) {
     const Template local = make_template(frame.local, options_.matching);
@@ -164,17 +177,17 @@ std::vector<Localizer::Look> Localizer::look(const Frame& frame) const {
   return looks;
 }
 
-bool Localizer::weigh(const std::vector<Look>& looks) {
+bool Localizer::weigh(ParticleFilter& filter, const std::vector<Look>& looks) {
   std::vector<Evidence> evidence;
   for (const Look& look : looks) {
     evidence.push_back({{}, look.temper});
     for (const PoseScore& score : look.scores) evidence.back().scores.push_back(score.score);
   }
-  return filter_.weigh(evidence);
+  return filter.weigh(evidence);
 }
 
-EstimateStatus Localizer::why_not(const std::vector<Look>& looks) const {
-  const std::vector<double>& weights = filter_.particles().weights;
+EstimateStatus Localizer::why_not(const std::vector<Look>& looks,
+                                  const std::vector<double>& weights) const {
   for (const Look& look : looks) {
     double overlapping = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {

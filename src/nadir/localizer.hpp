@@ -65,12 +65,14 @@ class Localizer {
   void start_near(const Pose2& prior, const Spread& spread);
 
   /// Goes on in another version of the map, of the same frame and resolution: particles and pose
-  /// stay where they are in metres. Throws Error (input) for a map of another frame or resolution;
-  /// nothing has changed then.
+  /// stay where they are in metres. Throws Error (input) for a map of another frame or resolution
+  /// and for one that MapIndex refuses; nothing has changed then.
   void use_map(const Orthomosaic& map);
 
   /// Takes one frame; frames come in the order of their stamps. Throws Error (input) for a
-  /// non-finite odometry or a stamp that does not increase; Error (usage) before start_near().
+  /// non-finite odometry, a stamp that does not increase, or a local map that make_template()
+  /// refuses; Error (usage) before start_near(). Nothing has changed where it throws: the frame,
+  /// put right, may be given again.
   Estimate update(const Frame& frame);
 
   /// The particles after the last update, with their weights.
@@ -82,11 +84,11 @@ class Localizer {
     std::vector<PoseScore> scores;  ///< of every particle
     double temper = 0.0;
   };
-  std::vector<Look> look(const Frame& frame) const;
-  bool weigh(const std::vector<Look>& looks);
+  std::vector<Look> look(const Frame& frame, const std::vector<Pose2>& poses) const;
+  static bool weigh(ParticleFilter& filter, const std::vector<Look>& looks);
   /// Why the frame said nothing: most of the cloud lies where too little can be compared, or what
   /// can be compared has no contrast.
-  EstimateStatus why_not(const std::vector<Look>& looks) const;
+  EstimateStatus why_not(const std::vector<Look>& looks, const std::vector<double>& weights) const;
   /// From the odometry where both frames have it, else by registering the local maps.
   std::optional<Motion2> motion_since_previous(const Frame& frame) const;
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "localization/textured_drive.hpp"
@@ -159,6 +160,50 @@ TEST(Localizer, GoesOnInANewerVersionOfTheMap) {
   Orthomosaic elsewhere = second;
   elsewhere.geo.crs = "another";
   EXPECT_THROW(localizer.use_map(elsewhere), Error);
+}
+
+void expect_same(const Estimate& a, const Estimate& b) {
+  EXPECT_EQ(a.map_from_robot.x, b.map_from_robot.x);
+  EXPECT_EQ(a.map_from_robot.y, b.map_from_robot.y);
+  EXPECT_EQ(a.map_from_robot.yaw, b.map_from_robot.yaw);
+  EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.effective_particles, b.effective_particles);
+  EXPECT_EQ(a.resampled, b.resampled);
+  EXPECT_EQ(a.status, b.status);
+}
+
+TEST(Localizer, AFrameThatThrowsChangesNothingAndMayBeGivenAgain) {
+  const std::vector<Frame> frames = drive(true);
+  const std::vector<Estimate> undisturbed = run({}, frames);
+  Localizer localizer(map_image(), {}, 1);
+  localizer.start_near(truth_at(0), {2.0, radians(5)});
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const ParticleSet before = localizer.particles();
+    Frame damaged = frames[k];
+    damaged.local.valid = Raster<std::uint8_t>{3, 3, 255};  // a mask of another size
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      EXPECT_THROW(localizer.update(damaged), Error);
+      EXPECT_EQ(localizer.particles().weights, before.weights);
+      ASSERT_EQ(localizer.particles().poses.size(), before.poses.size());
+      EXPECT_EQ(localizer.particles().poses.front().x, before.poses.front().x);
+    }
+    expect_same(localizer.update(frames[k]), undisturbed[k]);
+  }
+}
+
+TEST(Localizer, AMapThatThrowsLeavesTheOneBefore) {
+  const std::vector<Frame> frames = drive(true);
+  const std::vector<Estimate> undisturbed = run({}, frames);
+  Localizer localizer(map_image(), {}, 1);
+  localizer.start_near(truth_at(0), {2.0, radians(5)});
+  Orthomosaic all_holes = map_image();
+  std::ranges::fill(all_holes.valid.values(), std::uint8_t{0});
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (k == 4) {
+      EXPECT_THROW(localizer.use_map(all_holes), Error);
+    }
+    expect_same(localizer.update(frames[k]), undisturbed[k]);
+  }
 }
 
 TEST(Localizer, ThePaperPresetRuns) {
