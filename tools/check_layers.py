@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Finds every #include of src/ and apps/ that goes against docs/architecture.md.
+"""Finds every #include of src/ and apps/ that goes against docs/architecture.md, and every call that
+has a home of its own.
 
 Prints `file:line: what is wrong` for each and ends with exit code 1; nothing and 0 where there is
 none. Standard library only.
@@ -67,6 +68,12 @@ FORBIDDEN_STANDARD = {
     "io": [(TERMINAL, NO_TERMINAL)],
     APPS: [],
 }
+
+# Calls that one file makes for all: (pattern, that file, what to use instead).
+HOMES = [
+    (re.compile(r"(?:\.|->)\s*dump\s*\("), "src/nadir/io/json.cpp",
+     "a bare dump() throws at names that are not UTF-8: use json_text() of nadir/io/json.hpp"),
+]
 
 SOURCE_SUFFIXES = {".hpp", ".cpp", ".h", ".cc", ".cu", ".cuh", ".ipp"}
 # Strings are matched too, so that what looks like a comment inside one is left alone.
@@ -161,12 +168,22 @@ def check_file(root, path):
     return faults
 
 
+def check_calls(root, path):
+    """Calls outside of their home; what stands in a string or a comment is no call."""
+    text = STRING_OR_COMMENT.sub(lambda m: "\n" * m.group().count("\n"),
+                                 (root / path).read_text(encoding="utf-8"))
+    return [(path, text.count("\n", 0, found.start()) + 1, instead)
+            for pattern, home, instead in HOMES if path.as_posix() != home
+            for found in pattern.finditer(text)]
+
+
 def check_tree(root):
     faults = []
     for folder in ("src", "apps"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCE_SUFFIXES:
                 faults += check_file(root, file.relative_to(root))
+                faults += check_calls(root, file.relative_to(root))
     return faults
 
 

@@ -75,8 +75,8 @@ int run(const ConvertOptions& options, const Invocation& invocation) {
   output.commit();
   const Json document = describe(read_sequence(options.site), options.site);
   common.json ? print(document)
-              : print(options.site.string() + ": " + document["local_maps"].dump() +
-                      " local maps, " + document["truth_poses"].dump() + " true poses\n");
+              : print(options.site.string() + ": " + json_text(document["local_maps"]) +
+                      " local maps, " + json_text(document["truth_poses"]) + " true poses\n");
   return 0;
 }
 

@@ -113,7 +113,7 @@ class Growing {
   AerialMap finish(const MappingProgress& progress) { return mapper_->finish(progress); }
   /// Says that the map of all photos together is there; every tile may have changed.
   void write_final(const AerialMap& map) const {
-    write_file(update_file(options_.map), update_of(map, version_ + 1, true).dump(1) + "\n");
+    write_file(update_file(options_.map), json_text(update_of(map, version_ + 1, true), 1) + "\n");
   }
 
  private:
@@ -173,7 +173,7 @@ class Growing {
     for (const MapTile& tile : update.changed_tiles) {
       document["changed_tiles"].push_back({tile.x, tile.y});
     }
-    write_file(update_file(options_.map), document.dump(1) + "\n");
+    write_file(update_file(options_.map), json_text(document, 1) + "\n");
     print_note(
         fmt::format("{}: version {}, {}{} tiles changed, {:.1f} s", input_.photos.back().name,
                     update.version, update.provisional ? "provisional, " : "",

@@ -55,7 +55,7 @@ std::string readable(const Json& document, const std::string& indent) {
     if (value.is_object()) {
       text += indent + key + ":\n" + readable(value, indent + "  ");
     } else {
-      const std::string shown = value.is_null() ? "none" : value.dump();
+      const std::string shown = value.is_null() ? "none" : json_text(value);
       text += indent + key + ": " + (value.is_string() ? value.get<std::string>() : shown) + "\n";
     }
   }

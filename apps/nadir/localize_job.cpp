@@ -181,7 +181,7 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
                                       const std::filesystem::path& folder, double seconds) const {
   const auto summary = summary_of(runs);
   if (options_.seeds > 1 && summary) {
-    write_file(folder / "summary.json", to_json(*summary).dump(2) + "\n");
+    write_file(folder / "summary.json", json_text(to_json(*summary), 2) + "\n");
   }
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
   manifest.sources = {{"map", map_file_}};

@@ -183,7 +183,7 @@ int write_map(AerialMap map, const FlightInput& input, const MapOptions& options
   write_file(files.page, report_page(map, input, options.map.filename().string()));
   write_map_files(files, map);
   map.report.seconds.emplace_back("write", stopwatch.seconds());
-  write_file(files.report, report_of(map, input).dump(2) + "\n");
+  write_file(files.report, json_text(report_of(map, input), 2) + "\n");
   for (const std::string& warning : map.report.warnings) print_note(warning, common.quiet);
   common.json ? print(summary_of(map, input))
               : print(text_of(map, input) + "written to " + options.map.string() + "\n");

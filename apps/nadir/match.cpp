@@ -91,7 +91,7 @@ int run(const MatchVerbOptions& options, const Invocation& invocation) {
   const Stopwatch stopwatch;
   const auto matches = match_all(options, scene, effective.values().matching, output.staging());
   const Json document = to_json(matches, scene);
-  write_file(output.staging() / "match.json", document.dump(2) + "\n");
+  write_file(output.staging() / "match.json", json_text(document, 2) + "\n");
   Manifest manifest = manifest_of(invocation, limit.threads(), inputs);
   manifest.stages.push_back({"match", stopwatch.seconds()});
   write_manifest(output.staging(), manifest, effective.table(), effective.origins());

@@ -35,7 +35,7 @@ bool comes_before(const fs::path& one, const fs::path& other) {
 /// The truth of the run itself, or of the site that it was made in, where that still is.
 Trajectory truth_beside(const fs::path& folder, const Json& manifest) {
   if (fs::exists(folder / "truth.tum")) return read_tum(folder / "truth.tum");
-  const fs::path site = manifest.value("sources", Json::object()).value("site", std::string{});
+  const fs::path site = source_in(manifest, "site");
   if (site.empty() || !fs::exists(site / "sequence.yaml")) return {};
   return read_sequence(site).truth.value_or(Trajectory{});
 }
@@ -77,10 +77,15 @@ Json read_manifest(const fs::path& run) {
   return manifest;
 }
 
+fs::path source_in(const Json& manifest, const std::string& role) {
+  const Json sources = manifest.value("sources", Json::object());
+  return sources.contains(role) ? fs::path(name_at(sources, role)) : fs::path{};
+}
+
 std::string option_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
-  return value.dump();
+  return json_text(value);
 }
 
 std::vector<fs::path> runs_below(const fs::path& folder) {

@@ -15,6 +15,10 @@ namespace nadir::cli {
 /// manifest.json of a run. Throws Error (input) where it is missing or no JSON.
 Json read_manifest(const std::filesystem::path& run);
 
+/// Where the manifest says that the run's `map`, `site`, `surface` or `drive` is; empty where it
+/// does not.
+std::filesystem::path source_in(const Json& manifest, const std::string& role);
+
 /// The value of an option as the manifest has it, as `--set` takes it.
 std::string option_text(const Json& value);
 

@@ -142,7 +142,7 @@ void add_run(const RunRecord& run, const fs::path& pictures, Report& report) {
 }
 
 std::string name_of(const Json& manifest, const fs::path& folder) {
-  const fs::path site = manifest.value("sources", Json::object()).value("site", std::string{});
+  const fs::path site = source_in(manifest, "site");
   if (site.has_filename()) return site.filename().string();
   return folder.filename().string().empty() || folder.filename().string().starts_with('.')
              ? std::string("run")

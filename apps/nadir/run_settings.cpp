@@ -116,9 +116,9 @@ Markup provenance_of(const Json& manifest) {
       {"Machine", fmt::format("{}, {} logical processors, {} memory", text_at(host, "processor"),
                               cores, size_text(host.value("memory_bytes", 0.0)))},
       {"System", text_at(host, "system")}};
-  const Json sources = manifest.value("sources", Json::object());
-  for (const auto& [role, path] : sources.items()) {
-    rows.push_back({"Made of the " + role, option_text(path)});
+  for (const char* role : {"map", "site", "drive", "surface"}) {
+    const std::string path = source_in(manifest, role).string();
+    if (!path.empty()) rows.push_back({std::string("Made of the ") + role, path});
   }
   return markup + html::table({}, rows, html::Columns::kTexts) + stages(manifest) +
          inputs(manifest);

@@ -46,7 +46,7 @@ void print(const std::string& text) {
   throw Error(ErrorKind::kProcessing, std::strerror(errno), "standard output");
 }
 
-void print(const Json& document) { print(document.dump(2) + "\n"); }
+void print(const Json& document) { print(json_text(document, 2) + "\n"); }
 
 void print_error(const std::string& message) {
   const bool colours = colours_wanted();

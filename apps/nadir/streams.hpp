@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace nadir::cli {
+#include "nadir/io/json.hpp"
 
-/// Keeps the order in which keys were added.
-using Json = nlohmann::ordered_json;
+namespace nadir::cli {
 
 /// The only way to standard output: results. A reader that has gone away is no error; throws Error
 /// (processing) where the text could not be written for another reason, as on a full disk.

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "nadir/io/json.hpp"
 #include "nadir/io/sha256.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -68,6 +69,16 @@ TEST(Manifest, RecordsTheRun) {
   EXPECT_EQ(json["inputs"][1]["sha256"], sha256_of_file(folder / "site/b.txt"));
   EXPECT_EQ(json["stages"][0]["seconds"], 1.5);
   EXPECT_GT(json["host"]["memory_bytes"], 0);
+}
+
+TEST(Manifest, ASourceOfAnyNameIsFoundAgain) {
+  const TemporaryFolder folder;
+  const std::filesystem::path site = folder / "caf\xe9";
+  Manifest manifest;
+  manifest.sources = {{"site", site}};
+  write_manifest(folder.path(), manifest, OptionTable{});
+  const auto json = Json::parse(test::read_text(folder / "manifest.json"));
+  EXPECT_EQ(name_at(json["sources"], "site"), site.string());
 }
 
 TEST(Manifest, LeavesNothingWhereAnInputIsMissing) {

@@ -54,6 +54,18 @@ TEST(PhotoPoses, OwnFormatRoundTrips) {
               1e-12);
 }
 
+TEST(PhotoPoses, NamesThatAreNotUtf8StayTwo) {
+  const TemporaryFolder folder;
+  const PhotoPose one{"caf\xe9.jpg", {1600, 900, 936.5, 937.0, 799.5, 449.5}, {}};
+  PhotoPose other = one;
+  other.name = "caf\xe8.jpg";
+  write_photo_poses(folder / "map.poses.json", std::vector{one, other}, "");
+  const ImportedPoses read = read_photo_poses(folder / "map.poses.json");
+  ASSERT_EQ(read.poses.size(), 2U);
+  EXPECT_EQ(read.poses[0].name, one.name);
+  EXPECT_EQ(read.poses[1].name, other.name);
+}
+
 TEST(PhotoPoses, ResizedCamerasSeeTheSame) {
   const CameraModel camera{1600, 900, 936.0, 936.0, 810.0, 440.0};
   const CameraModel half = resized(camera, 800, 450);

@@ -129,6 +129,13 @@ class CheckLayersTest(unittest.TestCase):
             self.assert_found("src/nadir/core/x.hpp", opening + "#include <gdal.h>\n/* */\n", "GDAL",
                               line=2)
 
+    def test_json_becomes_text_in_one_place(self):
+        for path in ("src/nadir/io/x.cpp", "apps/nadir/x.cpp"):
+            for text in ("auto text = json.dump(2);\n", "p->dump();\n", "json\n.dump (-1);\n"):
+                self.assert_found(path, text, "json_text()", line=text.count("\n"))
+            self.assert_accepted(path, '// json.dump()\nauto text = "json.dump()";\ndump(x);\n')
+        self.assert_accepted("src/nadir/io/json.cpp", "json.dump(2);\n")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -44,7 +44,7 @@ void LiveView::frame_done(const FrameRecord& record, const ParticleSet& particle
     Json message = to_json(frame);
     message["index"] = run_.size() - 1;
     message["particles"] = base64(bytes_of(thinned(particles, {geo.west, geo.north})));
-    events_.publish("frame", message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    events_.publish("frame", json_text(message));
   }
   wait_for_the_next();
 }
@@ -64,7 +64,7 @@ std::optional<Prior> LiveView::new_start() {
   const std::optional<Prior> prior = std::exchange(asked_, std::nullopt);
   if (prior) {
     events_.publish("restart",
-                    Json{{"pose", {prior->pose.x, prior->pose.y, prior->pose.yaw}}}.dump());
+                    json_text({{"pose", {prior->pose.x, prior->pose.y, prior->pose.yaw}}}));
   }
   return prior;
 }

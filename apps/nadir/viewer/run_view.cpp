@@ -71,10 +71,7 @@ Json corners_on_earth(const MapTiles& tiles) {
 
 fs::path source(const Json& manifest, const char* role, const fs::path& given,
                 const fs::path& run) {
-  const fs::path named =
-      !given.empty()
-          ? given
-          : fs::path(manifest.value("sources", Json::object()).value(role, std::string{}));
+  const fs::path named = !given.empty() ? given : source_in(manifest, role);
   if (!named.empty() && fs::exists(named)) return named;
   const std::string what =
       named.empty() ? std::string("does not say where its ") + role + " is"
@@ -123,7 +120,7 @@ std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) 
   auto view =
       std::make_unique<RunView>(sources, options_of(manifest), folder / "particles.bin", false);
   if (sources.site.empty()) {
-    const fs::path drive = manifest["sources"].value("drive", std::string{});
+    const fs::path drive = source_in(manifest, "drive");
     view->sequence_.name = (drive / "").parent_path().filename().string();
   }
   const Json settings{{"version", manifest.value("version", "")},
@@ -132,7 +129,7 @@ std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) 
                       {"seed", manifest.value("seed", 0U)},
                       {"threads", manifest.value("threads", 0)},
                       {"options", manifest.value("options", Json::object())}};
-  view->settings_ = settings.dump(-1, ' ', false, Json::error_handler_t::replace);
+  view->settings_ = json_text(settings);
   for (ViewFrame& frame : read_view_frames(folder)) {
     frame.truth = truth_at(view->sequence_, frame.stamp);
     view->add(std::move(frame));

@@ -41,8 +41,7 @@ std::string host_without_port(const std::string& host) {
 }
 
 void answer(httplib::Response& response, const Json& document) {
-  response.set_content(document.dump(-1, ' ', false, Json::error_handler_t::replace),
-                       "application/json");
+  response.set_content(json_text(document), "application/json");
 }
 
 void refuse(httplib::Response& response, int status, const std::string& problem) {

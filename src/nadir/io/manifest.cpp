@@ -13,12 +13,11 @@
 
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/json.hpp"
 #include "nadir/io/sha256.hpp"
 
 namespace nadir {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The files of a folder in a fixed order, so that the same inputs give the same list.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& input) {
@@ -61,7 +60,7 @@ Json describe_options(const OptionTable& table, const OptionOrigins& origins) {
 Json describe_sources(const std::vector<std::pair<std::string, std::filesystem::path>>& sources) {
   Json described = Json::object();
   for (const auto& [role, path] : sources) {
-    described[role] = std::filesystem::absolute(path).lexically_normal().string();
+    set_name(described, role, std::filesystem::absolute(path).lexically_normal().string());
   }
   return described;
 }
@@ -113,9 +112,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
       {"sources", describe_sources(manifest.sources)},
       {"stages", describe_stages(manifest.stages)},
       {"host", describe_host()}};
-  // Arguments and paths may hold bytes that are not UTF-8.
-  const auto replace = Json::error_handler_t::replace;
-  write_file(folder / "manifest.json", document.dump(2, ' ', false, replace) + "\n");
+  write_file(folder / "manifest.json", json_text(document, 2) + "\n");
 }
 
 }  // namespace nadir

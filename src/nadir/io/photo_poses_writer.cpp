@@ -2,12 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/io/json.hpp"
 #include "nadir/io/photo_poses.hpp"
 
 namespace nadir {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const CameraModel& c) {
   return {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy},
@@ -27,18 +26,20 @@ void write_photo_poses(const std::filesystem::path& path, std::span<const PhotoP
     if (camera == cameras.size()) cameras.push_back(pose.camera);
     const Eigen::Vector3d& t = pose.map_from_camera.translation;
     const Eigen::Quaterniond& q = pose.map_from_camera.rotation;
-    photos.push_back({{"name", pose.name},
-                      {"camera", camera},
-                      {"position", {t.x(), t.y(), t.z()}},
-                      {"quaternion", {q.x(), q.y(), q.z(), q.w()}}});
+    Json photo = Json::object();
+    set_name(photo, "name", pose.name);
+    photo["camera"] = camera;
+    photo["position"] = {t.x(), t.y(), t.z()};
+    photo["quaternion"] = {q.x(), q.y(), q.z(), q.w()};
     const Eigen::Vector3d& flown = pose.flown_in_readout;
-    if (!flown.isZero()) photos.back()["flown_in_readout"] = {flown.x(), flown.y(), flown.z()};
+    if (!flown.isZero()) photo["flown_in_readout"] = {flown.x(), flown.y(), flown.z()};
+    photos.push_back(std::move(photo));
   }
   Json document{{"format", "nadir photo poses 1"}, {"crs", crs}};
   document["cameras"] = Json::array();
   for (const CameraModel& camera : cameras) document["cameras"].push_back(to_json(camera));
   document["photos"] = std::move(photos);
-  write_file(path, document.dump(1) + "\n");
+  write_file(path, json_text(document, 1) + "\n");
 }
 
 CameraModel resized(const CameraModel& camera, int width, int height) {

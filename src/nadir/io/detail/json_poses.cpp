@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "nadir/io/detail/pose_formats.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/json.hpp"
 
 namespace nadir {
 namespace {
 
 using SortedJson = nlohmann::json;  ///< its items come in the order of their names
 
-SortedJson parsed_json(const std::filesystem::path& path) {
+template <class Document>
+Document parsed(const std::filesystem::path& path) {
   try {
-    return SortedJson::parse(read_file(path));
-  } catch (const SortedJson::exception& error) {
+    return Document::parse(read_file(path));
+  } catch (const typename Document::exception& error) {
     throw input_error(path, std::string("is no JSON: ") + error.what());
   }
 }
@@ -57,8 +60,8 @@ CameraModel opensfm_camera(const SortedJson& c, const std::filesystem::path& pat
   return camera;
 }
 
-Eigen::Vector3d vector(const SortedJson& values) {
-  return {values.at(0).get<double>(), values.at(1).get<double>(), values.at(2).get<double>()};
+Eigen::Vector3d vector(const std::array<double, 3>& values) {
+  return {values[0], values[1], values[2]};
 }
 
 ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::path& path) {
@@ -97,24 +100,24 @@ ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::p
 }  // namespace
 
 ImportedPoses read_opensfm(const std::filesystem::path& path) {
-  const SortedJson document = parsed_json(path);
+  const auto document = parsed<SortedJson>(path);
   return checked(path, [&] { return opensfm_poses(document, path); });
 }
 
 ImportedPoses read_nadir_poses(const std::filesystem::path& path) {
-  const SortedJson document = parsed_json(path);
+  const auto document = parsed<Json>(path);
   return checked(path, [&] {
     ImportedPoses result;
     result.frame = PhotoPoseFrame::kMap;
     result.crs = document.at("crs");
     std::vector<CameraModel> cameras;
-    for (const SortedJson& c : document.at("cameras")) {
+    for (const Json& c : document.at("cameras")) {
       cameras.push_back({c.at("width"), c.at("height"), c.at("fx"), c.at("fy"), c.at("cx"),
                          c.at("cy"), c.at("k1"), c.at("k2"), c.at("p1"), c.at("p2"), c.at("k3")});
     }
-    for (const SortedJson& photo : document.at("photos")) {
-      const SortedJson& q = photo.at("quaternion");
-      PhotoPose pose{photo.at("name"), cameras.at(photo.at("camera").get<std::size_t>()), {}};
+    for (const Json& photo : document.at("photos")) {
+      const Json& q = photo.at("quaternion");
+      PhotoPose pose{name_at(photo, "name"), cameras.at(photo.at("camera").get<std::size_t>()), {}};
       pose.map_from_camera.rotation =
           Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(),
                              q.at(2).get<double>())
