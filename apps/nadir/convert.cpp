@@ -8,6 +8,7 @@
 #include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/aeroground.hpp"
+#include "nadir/io/input_file.hpp"
 #include "nadir/io/sequence.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -60,7 +61,7 @@ Json describe(const Sequence& sequence, const fs::path& site) {
 
 int run(const ConvertOptions& options, const Invocation& invocation) {
   const CommonOptions& common = invocation.common;
-  if (!fs::is_directory(options.directory)) {
+  if (!is_folder(options.directory)) {
     throw Error(ErrorKind::kInput, "there is no such folder", options.directory.string());
   }
   if (common.dry_run) {

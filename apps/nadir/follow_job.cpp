@@ -215,12 +215,13 @@ int follow_flight(const MapOptions& options, const Invocation& invocation) {
   const ThreadLimit limit(common);
   const EffectiveOptions effective(options.sources);
   require_new(options.map, common);
+  require_room_for_sisters(options.map);
   if (!options.flight.control_points.empty() || !options.flight.poses.empty() ||
       options.sfm != "nadir") {
     throw Error(ErrorKind::kUsage, "a map in the making takes no --gcp, --poses or --sfm",
                 "--follow", "map the photos once more without --follow when the flight is over");
   }
-  if (!fs::is_directory(options.flight.photos)) {
+  if (!is_folder(options.flight.photos)) {
     throw Error(ErrorKind::kInput, "there is no such folder", options.flight.photos.string());
   }
   make_folder_of(options.map);

@@ -19,7 +19,7 @@ struct Update {
 /// Of a map without update: final. The file is replaced at once, so that it is always whole.
 Update read_update(const fs::path& map) {
   const fs::path file = update_file(map);
-  if (!fs::exists(file)) return {};
+  if (!is_file(file)) return {};
   const auto document = nlohmann::json::parse(read_file(file), nullptr, false);
   if (!document.is_object() || !document.contains("version") || !document.contains("final")) {
     throw input_error(file, "it is no update of a map", "delete it where the map is finished");

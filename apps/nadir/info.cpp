@@ -32,12 +32,12 @@ bool is_drive(const fs::path& folder) {
 Json describe(const fs::path& path) {
   static const std::set<std::string> kImages{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
   static const std::set<std::string> kTrajectories{".tum", ".txt"};
-  if (!fs::exists(path)) {
+  if (!is_file(path) && !is_folder(path)) {
     throw Error(ErrorKind::kInput, "there is no such file or folder", path.string());
   }
   if (lower_extension(path) == ".bag") return describe_bag(path);
-  if (fs::is_directory(path)) {
-    const bool site = fs::exists(path / "sequence.yaml") || !is_drive(path);
+  if (is_folder(path)) {
+    const bool site = is_file(path / "sequence.yaml") || !is_drive(path);
     return site ? describe_site(path) : describe_drive(path);
   }
   if (kImages.contains(lower_extension(path))) return describe_image(path);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/elevation_file.hpp"
+#include "nadir/io/file_names.hpp"
+#include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/photo_poses.hpp"
 
@@ -46,7 +50,8 @@ MapFiles::MapFiles(const fs::path& path)
 
 fs::path standing_folder_of(const fs::path& map) {
   fs::path place = fs::absolute(map).parent_path();
-  while (!fs::exists(place) && place.has_relative_path()) place = place.parent_path();
+  std::error_code unknown;
+  while (!fs::exists(place, unknown) && place.has_relative_path()) place = place.parent_path();
   return place;
 }
 
@@ -55,13 +60,25 @@ void require_new(const fs::path& map, const CommonOptions& common) {
     throw Error(ErrorKind::kUsage, "the map is a GeoTIFF", map.string(), "give -o MAP.tif");
   }
   const fs::path place = standing_folder_of(map);
-  if (!fs::is_directory(place)) {
+  if (!is_folder(place)) {
     throw Error(ErrorKind::kUsage, "this is a file, no folder for the map", place.string(),
                 "give another -o");
   }
-  if (fs::exists(map) && !common.overwrite) {
+  std::error_code unknown;
+  if (fs::exists(map, unknown) && !common.overwrite) {
     throw Error(ErrorKind::kUsage, "the map is there already", map.string(),
                 "give --overwrite to replace it, or another -o");
+  }
+}
+
+void require_room_for_sisters(const fs::path& map) {
+  const std::size_t longest = kLongestName - std::string(".surface.tif").size();
+  if (map.stem().string().size() > longest) {
+    throw Error(ErrorKind::kUsage,
+                "the name is too long: the files beside the map, as MAP.surface.tif, would have "
+                "none",
+                map.string(),
+                fmt::format("give one of at most {} bytes before its ending", longest));
   }
 }
 

@@ -27,6 +27,9 @@ struct MapFiles {
 /// Throws Error (usage) for a map that is no .tif, that is there already without --overwrite, or
 /// that would lie in a file.
 void require_new(const std::filesystem::path& map, const CommonOptions& common);
+/// Throws Error (usage) for a map whose name is so long that those of its sisters would be too
+/// long.
+void require_room_for_sisters(const std::filesystem::path& map);
 /// The folder that a map will lie in, or the nearest above it that is there already.
 std::filesystem::path standing_folder_of(const std::filesystem::path& map);
 /// Makes the folder of a map where it is not there. Throws Error (processing) where it cannot.

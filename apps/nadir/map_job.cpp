@@ -15,6 +15,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/colmap_process.hpp"
+#include "nadir/io/file_names.hpp"
 #include "progress.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
@@ -61,8 +62,8 @@ int explain(const MapOptions& options, const FlightInput& input, const CommonOpt
 
 /// In a folder beside the map, which goes when the poses have been read.
 void solve_by_colmap(const MapOptions& options, const CommonOptions& common, FlightInput& input) {
-  const fs::path work = options.map.parent_path() /
-                        ("." + options.map.stem().string() + ".colmap-" + std::to_string(getpid()));
+  const fs::path work = options.map.parent_path() / ("." + short_name(options.map.stem()) +
+                                                     ".colmap-" + std::to_string(getpid()));
   fs::create_directories(work);
   std::vector<std::string> names;
   for (const fs::path& file : input.files) {
@@ -199,6 +200,7 @@ int map_flight(const MapOptions& options, const Invocation& invocation) {
   const EffectiveOptions effective(options.sources);
   AerialMappingOptions stage = effective.aerial_mapping();
   require_new(options.map, common);
+  require_room_for_sisters(options.map);
   const Stopwatch stopwatch;
   FlightInput input = read_input(options, stage, common);
   const double read_s = stopwatch.seconds();

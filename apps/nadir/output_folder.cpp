@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "nadir/core/error.hpp"
+#include "nadir/io/file_names.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -71,7 +72,7 @@ OutputFolder::OutputFolder(fs::path target, const CommonOptions& common,
   require_writable(target_, common, inputs);
   const fs::path place = resolved(target_);
   staging_ = place.parent_path() /
-             ("." + place.filename().string() + ".unfinished-" + std::to_string(getpid()));
+             ("." + short_name(place.filename()) + ".unfinished-" + std::to_string(getpid()));
   std::error_code error;
   fs::create_directories(staging_, error);
   if (error) {

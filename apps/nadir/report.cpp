@@ -30,9 +30,8 @@ bool is_map(const fs::path& path) {
 /// The page that `nadir map` wrote beside its map. Throws Error (input) where there is none.
 fs::path map_page_of(const fs::path& map) {
   const fs::path page = MapFiles(map).page;
-  if (!fs::is_regular_file(map))
-    throw Error(ErrorKind::kInput, "there is no such map", map.string());
-  if (!fs::is_regular_file(page)) {
+  if (!is_file(map)) throw Error(ErrorKind::kInput, "there is no such map", map.string());
+  if (!is_file(page)) {
     throw Error(ErrorKind::kInput, "has no page beside it", map.string(),
                 "`nadir map` writes it: run it again");
   }

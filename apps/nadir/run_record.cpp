@@ -34,9 +34,9 @@ bool comes_before(const fs::path& one, const fs::path& other) {
 
 /// The truth of the run itself, or of the site that it was made in, where that still is.
 Trajectory truth_beside(const fs::path& folder, const Json& manifest) {
-  if (fs::exists(folder / "truth.tum")) return read_tum(folder / "truth.tum");
+  if (is_file(folder / "truth.tum")) return read_tum(folder / "truth.tum");
   const fs::path site = source_in(manifest, "site");
-  if (site.empty() || !fs::exists(site / "sequence.yaml")) return {};
+  if (site.empty() || !is_file(site / "sequence.yaml")) return {};
   return read_sequence(site).truth.value_or(Trajectory{});
 }
 
@@ -62,11 +62,11 @@ Judgement judge(const RunRecord& record) {
 
 Json read_manifest(const fs::path& run) {
   const fs::path file = run / "manifest.json";
-  if (!fs::is_directory(run)) {
+  if (!is_folder(run)) {
     throw Error(ErrorKind::kInput, "no such folder", run.string(),
                 "give a folder that `nadir localize` wrote");
   }
-  if (!fs::is_regular_file(file)) {
+  if (!is_file(file)) {
     throw Error(ErrorKind::kInput, "holds no manifest.json", run.string(),
                 "give a folder that `nadir localize` wrote");
   }

@@ -9,6 +9,7 @@
 #include "libraries.hpp"
 #include "run_record.hpp"
 #include "text_table.hpp"
+#include "verb_call.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -28,19 +29,6 @@ bool same_value(const std::string& one, const std::string& other) {
 std::string text_at(const Json& object, const char* key) {
   const Json value = object.value(key, Json());
   return value.is_null() ? std::string{} : option_text(value);
-}
-
-/// As typed into a shell: what a shell would take apart is quoted.
-std::string shown_command_line(const Json& arguments) {
-  std::string line = "nadir";
-  for (const Json& argument : arguments) {
-    const std::string text = option_text(argument);
-    const bool plain = !text.empty() && text.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789-_./,:=+@%") == std::string::npos;
-    line += plain ? " " + text : " '" + text + "'";
-  }
-  return line;
 }
 
 std::string size_text(double bytes) {
@@ -104,7 +92,11 @@ Markup settings_of(const Json& manifest) {
 Markup provenance_of(const Json& manifest) {
   const Json host = manifest.value("host", Json::object());
   Markup markup = html::heading("Where this comes from");
-  markup += html::code(shown_command_line(manifest.value("arguments", Json::array())));
+  std::vector<std::string> arguments;
+  for (const Json& argument : manifest.value("arguments", Json::array())) {
+    arguments.push_back(option_text(argument));
+  }
+  markup += html::code(command_line(arguments));
   const std::string cores = text_at(host, "logical_processors");
   std::vector<html::Row> rows{
       {"nadir",

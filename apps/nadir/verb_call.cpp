@@ -8,13 +8,12 @@
 #include "captured_output.hpp"
 #include "interrupt.hpp"
 #include "nadir/core/error.hpp"
+#include "nadir/io/shell.hpp"
 
 namespace nadir::cli {
 
 std::string command_line(const std::vector<std::string>& arguments) {
-  std::string line = "nadir";
-  for (const std::string& argument : arguments) line += " " + argument;
-  return line;
+  return "nadir " + shell_line(arguments);
 }
 
 Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& common) {

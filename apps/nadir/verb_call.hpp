@@ -15,7 +15,7 @@ namespace nadir::cli {
 /// than 0.
 Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& common);
 
-/// The line that a user would type for it.
+/// The line that a user would type for it, quoted for a shell.
 std::string command_line(const std::vector<std::string>& arguments);
 
 }  // namespace nadir::cli

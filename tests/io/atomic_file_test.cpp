@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nadir/io/file_names.hpp"
 #include "support/expect_error.hpp"
 #include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
@@ -57,6 +58,25 @@ TEST(AtomicFile, KeepsTheExtensionForLibrariesThatChooseTheFormatByIt) {
   const AtomicFile file(folder / "map.tif");
   EXPECT_EQ(file.temporary().extension(), ".tif");
   EXPECT_EQ(file.temporary().parent_path(), folder.path());
+}
+
+TEST(AtomicFile, WritesUnderTheLongestName) {
+  const TemporaryFolder folder;
+  const std::string name(kLongestName - 4, 'n');
+  for (const std::string& longest : {name + ".tif", "n." + std::string(kLongestName - 2, 'x')}) {
+    write_file(folder / longest, "new");
+    EXPECT_EQ(test::read_text(folder / longest), "new");
+  }
+  EXPECT_EQ(test::count_entries(folder.path()), 2);
+}
+
+TEST(AtomicFile, AShortNameTearsNoCharacter) {
+  EXPECT_EQ(short_name("map"), "map");
+  EXPECT_EQ(short_name(std::string(70, 'n')), std::string(64, 'n'));
+  const std::string euro = "\xe2\x82\xac";
+  EXPECT_EQ(short_name(std::string(63, 'n') + euro + "nnn"), std::string(63, 'n'));
+  EXPECT_EQ(short_name(std::string(61, 'n') + euro + "nnn"), std::string(61, 'n') + euro);
+  EXPECT_EQ(short_name(std::string(300, '\x80')).size(), 64U) << "Latin-1, not UTF-8";
 }
 
 TEST(AtomicFile, RefusesAFolderThatIsNotThere) {

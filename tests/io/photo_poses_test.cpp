@@ -80,12 +80,14 @@ TEST(PhotoPoses, ReadsAColmapTextModel) {
                    "# Camera list\n1 OPENCV 1600 900 936 937 800 450 -0.01 0.002 0.0001 0.0002\n"
                    "2 SIMPLE_RADIAL 800 600 500 400 300 0.05\n");
   // camera_from_map: a half turn about x, then a shift.
-  test::write_text(folder / "images.txt",
-                   "# Image list\n1 0 1 0 0 -10 20 30 1 a.jpg\n100.5 200.5 7 101.5 201.5 8\n"
-                   "2 1 0 0 0 0 0 5 2 b.jpg\n\n");
+  test::write_text(
+      folder / "images.txt",
+      "# Image list\n1 0 1 0 0 -10 20 30 1 a.jpg\n100.5 200.5 7 101.5 201.5 8\n"
+      "2 1 0 0 0 0 0 5 2 b.jpg\n\n3  1 0 0 0  0 0 5 2  b 2.jpg\n1 2 3 4 5 6 7 8 2 10 11 12\n");
   const ImportedPoses read = read_photo_poses(folder.path());
   EXPECT_EQ(read.frame, PhotoPoseFrame::kModel);
-  ASSERT_EQ(read.poses.size(), 2U);
+  ASSERT_EQ(read.poses.size(), 3U);
+  EXPECT_EQ(read.poses[2].name, "b 2.jpg");
   EXPECT_EQ(read.poses[0].camera,
             (CameraModel{1600, 900, 936, 937, 799.5, 449.5, -0.01, 0.002, 0.0001, 0.0002, 0}))
       << "COLMAP counts from the outer corner";

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "nadir/core/error.hpp"
+#include "nadir/io/file_names.hpp"
 
 namespace nadir {
 namespace {
@@ -41,8 +42,8 @@ class Descriptor {
 /// the folder does not take it for a result.
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() / fmt::format(".{}.{}-{}.tmp{}", target.stem().string(), ::getpid(),
-                                            counter++, target.extension().string());
+  return target.parent_path() / fmt::format(".{}.{}-{}.tmp{}", short_name(target.stem()),
+                                            ::getpid(), counter++, short_name(target.extension()));
 }
 
 }  // namespace

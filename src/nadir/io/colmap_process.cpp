@@ -88,7 +88,13 @@ ImportedPoses run_colmap(const fs::path& photos, const std::vector<std::string>&
   const std::string database = (work / "database.db").string();
   const std::string images = fs::absolute(photos).string();
   std::string list;
-  for (const std::string& name : names) list += name + "\n";
+  for (const std::string& name : names) {
+    if (name.find('\n') != std::string::npos) {
+      throw Error(ErrorKind::kUsage, "its name holds a line break, which COLMAP cannot take", name,
+                  "rename the photo, or leave --sfm away");
+    }
+    list += name + "\n";
+  }
   write_file(work / "photos.txt", list);
   create_folder(work / "sparse");
   const std::vector<Arguments> programs{

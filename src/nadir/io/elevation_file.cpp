@@ -12,6 +12,7 @@
 #include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/detail/geotiff.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/shell.hpp"
 
 namespace nadir {
 namespace {
@@ -28,9 +29,9 @@ GdalDataset open(const std::filesystem::path& path, const GdalErrors& errors) {
                       "give a GeoTIFF of heights");
   }
   if (dataset->GetRasterCount() != 1) {
-    throw input_error(path,
-                      fmt::format("it has {} bands, heights are one", dataset->GetRasterCount()),
-                      fmt::format("pick one: gdal_translate -b 1 {} out.tif", path.string()));
+    throw input_error(
+        path, fmt::format("it has {} bands, heights are one", dataset->GetRasterCount()),
+        fmt::format("pick one: gdal_translate -b 1 {} out.tif", shell_quoted_path(path)));
   }
   return dataset;
 }

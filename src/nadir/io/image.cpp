@@ -13,6 +13,7 @@
 #include "nadir/io/detail/image_view.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/shell.hpp"
 
 namespace nadir {
 namespace {
@@ -65,9 +66,9 @@ Raster<std::uint8_t> decode_image(const std::filesystem::path& path, std::string
                       "give a PNG, JPEG or TIFF file, or copy it again if it is damaged");
   }
   if (decoded.depth() != CV_8U) {
-    throw input_error(
-        path, "has more than 8 bits a channel",
-        fmt::format("convert it: gdal_translate -ot Byte -scale {} out.tif", path.string()));
+    throw input_error(path, "has more than 8 bits a channel",
+                      fmt::format("convert it: gdal_translate -ot Byte -scale {} out.tif",
+                                  shell_quoted_path(path)));
   }
   Raster<std::uint8_t> image(decoded.cols, decoded.rows, 0, decoded.channels());
   cv::Mat view = view_of(image);

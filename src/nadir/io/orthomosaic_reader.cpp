@@ -12,6 +12,7 @@
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/shell.hpp"
 
 namespace nadir {
 namespace {
@@ -54,7 +55,8 @@ GeoReference geo_reference(GDALDataset& dataset, const std::filesystem::path& pa
 }  // namespace
 
 std::string translate_line(const std::filesystem::path& path, const std::string& arguments) {
-  return fmt::format("convert it: gdal_translate {} {} out.tif", arguments, path.string());
+  return fmt::format("convert it: gdal_translate {} {} out.tif", arguments,
+                     shell_quoted_path(path));
 }
 
 /// Compressed images are decoded without a word where they end too early.

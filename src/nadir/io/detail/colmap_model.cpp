@@ -47,6 +47,16 @@ CameraModel camera_of(const TextRow& row) {
   return camera;
 }
 
+/// What follows so many words: a name may hold blanks.
+std::string after_words(const std::string& text, int count) {
+  constexpr const char* kBlanks = " \t";
+  std::size_t at = 0;
+  for (int i = 0; i < count && at != std::string::npos; ++i) {
+    at = text.find_first_not_of(kBlanks, text.find_first_of(kBlanks, at));
+  }
+  return at == std::string::npos ? std::string{} : text.substr(at);
+}
+
 }  // namespace
 
 ImportedPoses read_colmap_model(const std::filesystem::path& folder) {
@@ -57,15 +67,16 @@ ImportedPoses read_colmap_model(const std::filesystem::path& folder) {
   ImportedPoses result;
   for (const TextRow& row : read_text_table(folder / "images.txt")) {
     const std::vector<std::string>& f = row.words;
-    // Lines of image points are threes of numbers; a pose has ten words, the last a file's name.
-    if (row.text.starts_with('#') || f.size() != 10 || !cameras.contains(f[8])) continue;
-    if (f[9].find_first_not_of("0123456789.-+e") == std::string::npos) continue;
+    // Lines of image points are threes of numbers; a pose has nine and the name of a file.
+    if (row.text.starts_with('#') || f.size() < 10 || !cameras.contains(f[8])) continue;
+    const std::string name = after_words(row.text, 9);
+    if (name.find_first_not_of("0123456789.-+e \t") == std::string::npos) continue;
     const auto value = [&](std::size_t i) { return number_in_file(f[i], "number", row.where); };
     Transform3<frames::Camera, frames::Map> camera_from_map;
     camera_from_map.rotation =
         Eigen::Quaterniond(value(1), value(2), value(3), value(4)).normalized();
     camera_from_map.translation = {value(5), value(6), value(7)};
-    result.poses.push_back({f[9], cameras.at(f[8]), camera_from_map.inverse()});
+    result.poses.push_back({name, cameras.at(f[8]), camera_from_map.inverse()});
   }
   if (result.poses.empty()) throw input_error(folder / "images.txt", "holds no poses");
   return result;

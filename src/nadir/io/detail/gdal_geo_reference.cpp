@@ -10,6 +10,7 @@
 
 #include "nadir/io/detail/utm.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/shell.hpp"
 
 namespace nadir {
 namespace {
@@ -20,7 +21,7 @@ std::string warp_line(const std::filesystem::path& path, const std::string& argu
   return fmt::format(
       "bring it in: nadir convert map {1} -o north_up.tif, or gdalwarp {0} -r cubic -dstalpha {1} "
       "north_up.tif",
-      arguments, path.string());
+      arguments, shell_quoted_path(path));
 }
 
 std::string text_of(char* allocated_by_gdal) {
