@@ -15,6 +15,7 @@
 #include "stopwatch.hpp"
 #include "streams.hpp"
 #include "verbs.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -75,10 +76,9 @@ int run(const ConvertOptions& options, const Invocation& invocation) {
   convert_into(output.staging(), options, invocation);
   output.commit();
   const Json document = describe(read_sequence(options.site), options.site);
-  common.json ? print(document)
-              : print(options.site.string() + ": " + json_text(document["local_maps"]) +
-                      " local maps, " + json_text(document["truth_poses"]) + " true poses\n");
-  return 0;
+  const std::string text = options.site.string() + ": " + json_text(document["local_maps"]) +
+                           " local maps, " + json_text(document["truth_poses"]) + " true poses\n";
+  return finish(document, text, {}, common);
 }
 
 }  // namespace

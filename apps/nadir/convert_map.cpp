@@ -9,6 +9,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/orthomosaic_import.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -55,21 +56,21 @@ int run(const ConvertMapOptions& options, const Invocation& invocation) {
     write_orthomosaic(options.map, imported.map);
   }
   const GeoReference& geo = imported.map.geo;
-  if (common.json) {
-    print(Json{{"map", options.map.string()},
-               {"width_px", imported.map.width()},
-               {"height_px", imported.map.height()},
-               {"resolution_m", geo.resolution},
-               {"west", geo.west},
-               {"north", geo.north},
-               {"crs", geo.crs.empty() ? Json(nullptr) : Json(geo.crs)},
-               {"notes", imported.notes}});
-    return 0;
+  const Json document{{"map", options.map.string()},
+                      {"width_px", imported.map.width()},
+                      {"height_px", imported.map.height()},
+                      {"resolution_m", geo.resolution},
+                      {"west", geo.west},
+                      {"north", geo.north},
+                      {"crs", geo.crs.empty() ? Json(nullptr) : Json(geo.crs)},
+                      {"notes", imported.notes}};
+  if (!common.json) {
+    for (const std::string& note : imported.notes) print_note(note, common.quiet);
   }
-  for (const std::string& note : imported.notes) print_note(note, common.quiet);
-  print(options.map.string() + ": " + std::to_string(imported.map.width()) + " x " +
-        std::to_string(imported.map.height()) + " px\n");
-  return 0;
+  return finish(document,
+                options.map.string() + ": " + std::to_string(imported.map.width()) + " x " +
+                    std::to_string(imported.map.height()) + " px\n",
+                {}, common);
 }
 
 }  // namespace

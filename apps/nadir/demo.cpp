@@ -75,9 +75,9 @@ int run(const DemoOptions& options, const Invocation& invocation) {
   clear(options.output, manifest, common);
   const DemoResult result = run_steps(plan, common);
   for (const auto& [stage, seconds] : result.stages) manifest.stages.push_back({stage, seconds});
+  manifest.doubts = result.verdict.doubts();
   write_manifest(options.output, manifest, OptionTable{});
-  common.json ? print(to_json(result, plan, out)) : print(to_text(result, plan, out));
-  return 0;
+  return finish(to_json(result, plan, out), to_text(result, plan, out), result.verdict, common);
 }
 
 }  // namespace

@@ -89,9 +89,11 @@ DemoPlan plan_demo(const std::string& out, bool quick, std::uint64_t number) {
         {"localize", out + "/drive", "-o", run, "--frames",
          fmt::format("{}:{}", kFirstFrame, extent.frames - 1), "--prior", "truth", "--seed", seed}};
     step.arguments.insert(step.arguments.end(), method.options.begin(), method.options.end());
+    step.is_nadirs_own = &method == &demo_methods().back();
     plan.steps.push_back(std::move(step));
-    plan.steps.push_back(
-        {"eval", {"eval", run + "/trajectory.tum", "--truth", out + "/drive/truth.tum"}});
+    plan.steps.push_back({"eval",
+                          {"eval", run + "/trajectory.tum", "--truth", out + "/drive/truth.tum"},
+                          &method == &demo_methods().back()});
   }
   plan.steps.push_back({"report", {"report", out}});
   return plan;

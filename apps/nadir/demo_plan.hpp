@@ -21,6 +21,7 @@ const std::vector<DemoMethod>& demo_methods();
 struct DemoStep {
   std::string stage;  ///< simulate, map, ground, match, localize, eval, report
   std::vector<std::string> arguments;
+  bool is_nadirs_own = true;  ///< false of the methods that it is compared with
 };
 
 /// The commands in their order; localize and eval come once a method, in the order of

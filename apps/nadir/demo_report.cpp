@@ -38,6 +38,11 @@ void DemoResult::add(const DemoStep& step, const Json& document, double seconds)
     known->second += seconds;
   }
   if (step.stage == "eval") judged.push_back(document);
+  if (step.is_nadirs_own) {
+    for (const Json& doubt : document.value("doubtful", Json::array())) {
+      verdict.doubt(step.stage + ": " + doubt.get<std::string>());
+    }
+  }
   if (step.stage == "report") report = document["report"].get<std::string>();
 }
 

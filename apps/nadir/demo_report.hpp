@@ -7,6 +7,7 @@
 
 #include "demo_plan.hpp"
 #include "streams.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 
@@ -15,6 +16,7 @@ struct DemoResult {
   std::vector<std::pair<std::string, double>> stages;  ///< seconds, in the order of the pipeline
   std::vector<Json> judged;                            ///< of `nadir eval`, one a method
   std::string report;                                  ///< the file to look at first
+  Verdict verdict;  ///< of the maps and nadir's own method; the others are there to be compared
 
   void add(const DemoStep& step, const Json& document, double seconds);
 };

@@ -159,6 +159,26 @@ std::optional<MapComparison> DriveMapping::comparison() const {
   return check_->compare(square(options_.local_map, kJudgedSideM));
 }
 
+std::vector<std::string> DriveMapping::doubts(const std::optional<MapComparison>& compared) const {
+  std::vector<std::string> doubts;
+  if (const auto misfit = pose_misfit(mapper_.pose_fit())) {
+    doubts.push_back(drive_.pose_file.string() + ": " + *misfit);
+  }
+  if (compared) {
+    if (const auto misfit = pose_misfit(*compared)) doubts.push_back(*misfit);
+  }
+  const auto mapped = std::ranges::count_if(frames_, [](const MappedFrame& frame) {
+    return frame.odom_from_robot && frame.statistics.status == MappingStatus::kOk;
+  });
+  if (2 * mapped < std::ssize(frames_)) {
+    doubts.push_back(
+        fmt::format("{}: only {} of {} frames are in the local maps; check that the "
+                    "poses are those of this drive, and its calibration",
+                    drive_.name, mapped, frames_.size()));
+  }
+  return doubts;
+}
+
 std::vector<std::string> DriveMapping::warnings() const {
   std::vector<std::pair<std::string, int>> said;
   for (const std::string& note : drive_.notes) count(said, note, 1);
@@ -171,9 +191,6 @@ std::vector<std::string> DriveMapping::warnings() const {
     for (const std::string& warning : frame.statistics.warnings) count(said, warning, 1);
   }
   std::vector<std::string> warnings;
-  if (const auto misfit = pose_misfit(mapper_.pose_fit())) {
-    warnings.push_back(drive_.pose_file.string() + ": " + *misfit);
-  }
   for (const auto& [sentence, times] : said) {
     warnings.push_back(times > 1 ? fmt::format("{} ({} times)", sentence, times) : sentence);
   }

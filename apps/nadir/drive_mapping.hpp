@@ -61,8 +61,11 @@ class DriveMapping {
   std::optional<LocalMap> last_square() const;
   /// Of odd and even frames; only with self_check, after two frames.
   std::optional<MapComparison> comparison() const;
-  /// What is worth a warning, each once with how often it was so.
+  /// What is worth a warning, each once with how often it was so; the doubts are apart.
   std::vector<std::string> warnings() const;
+  /// Why the local maps must not be relied on unseen, `compared` as comparison() gave it; nothing
+  /// where they may.
+  std::vector<std::string> doubts(const std::optional<MapComparison>& compared = {}) const;
 
  private:
   void take(const DriveFrame& frame);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +12,7 @@
 #include "nadir/io/tum.hpp"
 #include "run_files.hpp"
 #include "verbs.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -51,7 +55,27 @@ void restrict_to_frames(const EvalOptions& options, EvaluationOptions& evaluatio
   evaluation.last = whole_seconds(range.last);
 }
 
-Judgement judge(const EvalOptions& options) {
+/// How many poses of a trajectory lie in the range that is judged.
+int poses_in_range(const Trajectory& trajectory, const EvaluationOptions& range) {
+  return static_cast<int>(std::ranges::count_if(trajectory, [&](const auto& stamped) {
+    return (!range.first || stamped.stamp >= *range.first) &&
+           (!range.last || stamped.stamp <= *range.last);
+  }));
+}
+
+/// An evaluation of few of the poses says little of the others. The sparser of the two trajectories
+/// counts: a truth of a higher rate, or of a lower one, is none the worse.
+void judge_coverage(const Evaluation& evaluation, int poses, const EvalOptions& options,
+                    Verdict& verdict) {
+  if (2 * evaluation.matched_frames >= std::min(poses, evaluation.truth_frames)) return;
+  verdict.doubt(fmt::format(
+      "{}: only {} of its {} poses have one of the {} true poses within {} s; give another "
+      "--t-max-diff, and check that both files have the stamps of one clock",
+      options.trajectory.string(), evaluation.matched_frames, poses, evaluation.truth_frames,
+      options.t_max_diff_s));
+}
+
+Judgement judge(const EvalOptions& options, Verdict& verdict) {
   EvaluationOptions evaluation;
   evaluation.t_max_diff_s = options.t_max_diff_s;
   evaluation.alignment = alignment_of(options);
@@ -62,6 +86,7 @@ Judgement judge(const EvalOptions& options) {
   const Trajectory estimated = read_tum(options.trajectory);
   const Trajectory truth = read_tum(options.truth);
   Judgement judgement{evaluate(estimated, truth, evaluation), evaluation.alignment, {}};
+  judge_coverage(judgement.evaluation, poses_in_range(estimated, evaluation), options, verdict);
   const fs::path covariances = fs::absolute(options.trajectory).parent_path() / "covariance.csv";
   // A covariance speaks of the pose in the map: aligning takes away what it is about.
   if (evaluation.alignment == Alignment::kNone && fs::exists(covariances)) {
@@ -72,9 +97,9 @@ Judgement judge(const EvalOptions& options) {
 }
 
 int run(const EvalOptions& options, const Invocation& invocation) {
-  const Judgement judgement = judge(options);
-  invocation.common.json ? print(to_json(judgement)) : print(to_table(judgement));
-  return 0;
+  Verdict verdict;
+  const Judgement judgement = judge(options, verdict);
+  return finish(to_json(judgement), to_table(judgement), verdict, invocation.common);
 }
 
 void add_options(CLI::App& verb, EvalOptions& options) {

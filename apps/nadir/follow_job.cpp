@@ -229,14 +229,16 @@ int follow_flight(const MapOptions& options, const Invocation& invocation) {
   print_note("waiting for photos in " + options.flight.photos.string(), common.quiet);
   take_photos(options, growing);
   if (growing.empty()) {
+    stop_if_interrupted();
     throw Error(ErrorKind::kInput, "no photo came", options.flight.photos.string(),
                 "give a longer --idle");
   }
   // An interrupt ends the flight, and the final map is still made.
+  interrupt_is_the_end();
   const AerialMap map = growing.finish({});
   const int code = write_map(map, growing.input(), options, common);
   growing.write_final(map);
-  return interrupted() ? kInterruptedExitCode : code;
+  return code;
 }
 
 }  // namespace nadir::cli

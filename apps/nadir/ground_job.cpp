@@ -108,7 +108,8 @@ Odometry GroundJob::odometry() const {
 }
 
 void GroundJob::write_rest(SequenceWriter& writer, const DriveOverview& overview,
-                           const std::filesystem::path& folder, double seconds) const {
+                           const std::filesystem::path& folder, const Verdict& verdict,
+                           double seconds) const {
   if (!options_.map.empty()) writer.write_map(read_orthomosaic(options_.map));
   if (!options_.surface.empty()) writer.write_surface(read_elevation_map(options_.surface));
   writer.write_odometry(odometry());
@@ -117,6 +118,7 @@ void GroundJob::write_rest(SequenceWriter& writer, const DriveOverview& overview
   write_file(folder / "frames.csv", frames_csv(mapping_.frames()));
   Manifest manifest = manifest_of(invocation_, threads_, inputs());
   manifest.stages.push_back({interrupted() ? "ground (interrupted)" : "ground", seconds});
+  manifest.doubts = verdict.doubts();
   write_manifest(folder, manifest, effective_.table(), effective_.origins());
   writer.finish();
 }
@@ -131,12 +133,12 @@ int GroundJob::run() {
                          std::hypot(mapping.local_map.size_x_m, mapping.local_map.size_y_m) / 2.0,
                          mapping.local_map.resolution_m);
   write_maps(writer, overview);
-  write_rest(writer, overview, output.staging(), stopwatch.seconds());
-  output.commit();
   const GroundReport report = report_of(mapping_, render_ms_, low_coverage_);
-  invocation_.common.json ? print(to_json(report))
-                          : print(to_table(report) + "written to " + options_.site.string() + "\n");
-  return interrupted() ? kInterruptedExitCode : 0;
+  const Verdict verdict(report.doubts);
+  write_rest(writer, overview, output.staging(), verdict, stopwatch.seconds());
+  output.commit();
+  return finish(to_json(report), to_table(report) + "written to " + options_.site.string() + "\n",
+                verdict, invocation_.common);
 }
 
 }  // namespace nadir::cli

@@ -11,6 +11,7 @@
 #include "effective_options.hpp"
 #include "ground_report.hpp"
 #include "nadir/io/sequence.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 
@@ -35,7 +36,7 @@ class GroundJob {
 
   /// --dry-run: says what would be done; returns the exit code.
   int explain() const;
-  /// Returns the exit code: 0, or 130 where it was interrupted.
+  /// Returns the exit code.
   int run();
 
  private:
@@ -43,7 +44,8 @@ class GroundJob {
   void write_maps(SequenceWriter& writer, DriveOverview& overview);
   void write_local_map(SequenceWriter& writer, const RenderedMap& rendered);
   void write_rest(SequenceWriter& writer, const DriveOverview& overview,
-                  const std::filesystem::path& folder, double seconds) const;
+                  const std::filesystem::path& folder, const Verdict& verdict,
+                  double seconds) const;
   Odometry odometry() const;
 
   const GroundOptions& options_;

@@ -93,10 +93,10 @@ GroundReport report_of(const DriveMapping& mapping, const std::vector<double>& r
   report.pose_fit = mapping.pose_fit();
   report.comparison = mapping.comparison();
   report.ms_per_frame = medians(mapping.frames(), render_ms);
-  report.warnings = mapping.warnings();
-  if (report.comparison) {
-    if (const auto misfit = pose_misfit(*report.comparison)) report.warnings.push_back(*misfit);
-  }
+  report.doubts = mapping.doubts(report.comparison);
+  report.warnings = report.doubts;
+  const std::vector<std::string> others = mapping.warnings();
+  report.warnings.insert(report.warnings.end(), others.begin(), others.end());
   return report;
 }
 

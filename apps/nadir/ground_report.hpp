@@ -21,6 +21,7 @@ struct GroundReport {
   std::optional<MapComparison> comparison;
   std::vector<std::pair<std::string, double>> ms_per_frame;  ///< stage, median
   std::vector<std::string> warnings;
+  std::vector<std::string> doubts;  ///< the first of the warnings
 };
 
 GroundReport report_of(const DriveMapping& mapping, const std::vector<double>& render_ms,

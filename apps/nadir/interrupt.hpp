@@ -3,8 +3,6 @@
 
 namespace nadir::cli {
 
-inline constexpr int kInterruptedExitCode = 130;
-
 /// Thrown where work stops at an interrupt and has no partial result worth keeping.
 struct Interrupted {};
 
@@ -17,5 +15,12 @@ bool interrupted();
 
 /// Throws Interrupted if so.
 void stop_if_interrupted();
+
+/// What the process ends with after an interrupt, as shells have it: 128 and the number of the
+/// signal, 130 for SIGINT and 143 for SIGTERM. 0 after interrupt_is_the_end().
+int interrupted_exit_code();
+
+/// What goes on now has no end of its own: an interrupt is how it ends, and success.
+void interrupt_is_the_end();
 
 }  // namespace nadir::cli

@@ -51,4 +51,14 @@ std::string version_text() {
   return "nadir " + program_version() + ", Apache-2.0\n\n" + text_table(rows);
 }
 
+Json version_document() {
+  Json document{{"nadir", program_version()}, {"licence", "Apache-2.0"}};
+  document["libraries"] = Json::array();
+  for (const Library& library : libraries()) {
+    document["libraries"].push_back(
+        {{"name", library.name}, {"version", library.version}, {"licence", library.licence}});
+  }
+  return document;
+}
+
 }  // namespace nadir::cli

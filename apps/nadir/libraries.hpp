@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "nadir/io/json.hpp"
+
 namespace nadir::cli {
 
 struct Library {
@@ -18,7 +20,8 @@ std::vector<Library> libraries();
 /// The version of nadir.
 std::string program_version();
 
-/// `nadir version` and `nadir --version`, for reading.
+/// `nadir version` and `nadir --version`, for reading and as a document.
 std::string version_text();
+Json version_document();
 
 }  // namespace nadir::cli

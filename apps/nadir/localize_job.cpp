@@ -16,6 +16,7 @@
 #include "nadir/io/orthomosaic_file.hpp"
 #include "particle_log.hpp"
 #include "progress.hpp"
+#include "run_doubts.hpp"
 #include "run_figures.hpp"
 #include "run_files.hpp"
 #include "run_report.hpp"
@@ -178,7 +179,8 @@ void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
 }
 
 void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
-                                      const std::filesystem::path& folder, double seconds) const {
+                                      const std::filesystem::path& folder, const Verdict& verdict,
+                                      double seconds) const {
   const auto summary = summary_of(runs);
   if (options_.seeds > 1 && summary) {
     write_file(folder / "summary.json", json_text(to_json(*summary), 2) + "\n");
@@ -193,18 +195,34 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
   if (surface_file_) manifest.sources.emplace_back("surface", *surface_file_);
   const bool partial = interrupted();
   manifest.stages.push_back({partial ? "localize (interrupted)" : "localize", seconds});
+  manifest.doubts = verdict.doubts();
   write_manifest(folder, manifest, effective_.table(), effective_.origins());
 }
 
-void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
-  const auto summary = summary_of(runs);
-  if (!invocation_.common.json) {
-    std::string text = options_.seeds == 1 ? to_text(runs.front())
-                       : summary           ? to_table(*summary)
-                                           : std::to_string(runs.size()) + " seeds done\n";
-    print(text + "open " + (options_.run / "report.html").string() + "\n");
-    return;
+/// Of the mapping of the drive, where there was one, and of every seed.
+Verdict LocalizeJob::verdict_of(const std::vector<SeedRun>& runs) const {
+  Verdict verdict;
+  if (input_.doubts) verdict.doubt(input_.doubts());
+  if (std::ranges::all_of(runs, [](const SeedRun& run) { return run.result.answered() == 0; })) {
+    verdict.nothing_found({ErrorKind::kNoResult, "no local map could be compared with the map",
+                           input_.place.string(),
+                           "check the prior and that map and site belong together"});
+    return verdict;
   }
+  for (const SeedRun& run : runs) {
+    for (const std::string& doubt : doubts_of(run)) {
+      verdict.doubt(options_.seeds == 1 ? doubt : fmt::format("seed {}: {}", run.seed, doubt));
+    }
+  }
+  return verdict;
+}
+
+void LocalizeJob::report(const std::vector<SeedRun>& runs, const Verdict& verdict) const {
+  const auto summary = summary_of(runs);
+  std::string text = options_.seeds == 1 ? to_text(runs.front())
+                     : summary           ? to_table(*summary)
+                                         : std::to_string(runs.size()) + " seeds done\n";
+  text += "open " + (options_.run / "report.html").string() + "\n";
   Json document = to_json(runs.front());
   if (options_.seeds > 1) {
     document = Json{{"summary", summary ? to_json(*summary) : Json(nullptr)}};
@@ -215,7 +233,7 @@ void LocalizeJob::report(const std::vector<SeedRun>& runs) const {
   document["output"] = options_.run.string();
   document["figures"] = figures_;
   document["report"] = (options_.run / "report.html").string();
-  print(document);
+  print_result(std::move(document), text, verdict, invocation_.common);
 }
 
 int LocalizeJob::run() {
@@ -238,21 +256,19 @@ int LocalizeJob::run() {
   finish_kept_site();
   if (runs.empty()) throw Interrupted{};
   draw(map, runs.front(), output.staging());
-  write_summary_files(runs, output.staging(), stopwatch.seconds());
+  const Verdict verdict = verdict_of(runs);
+  write_summary_files(runs, output.staging(), verdict, stopwatch.seconds());
   write_run_report(output.staging());
   output.commit();
-  report(runs);
-  if (live_ && !interrupted()) {
-    print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);
-    live_->serve_until_interrupted();
-    return 0;
+  report(runs, verdict);
+  if (live_) {
+    interrupt_is_the_end();
+    if (!interrupted()) {
+      print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);
+      live_->serve_until_interrupted();
+    }
   }
-  if (interrupted()) return kInterruptedExitCode;
-  if (std::ranges::any_of(runs, [](const SeedRun& run) { return run.result.answered() > 0; })) {
-    return 0;
-  }
-  throw Error(ErrorKind::kNoResult, "no local map could be compared with the map",
-              input_.place.string(), "check the prior and that map and site belong together");
+  return conclude(verdict);
 }
 
 }  // namespace nadir::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "nadir/io/sequence.hpp"
 #include "output_folder.hpp"
 #include "seed_run.hpp"
+#include "verdict.hpp"
 #include "viewer/live_view.hpp"
 
 namespace nadir::cli {
@@ -38,6 +40,8 @@ struct LocalizeInput {
   /// sequence.
   FrameReader read;
   std::vector<std::filesystem::path> inputs;
+  /// Of a drive, when all its frames have been read: why its local maps must not be relied on.
+  std::function<std::vector<std::string>()> doubts = {};
 };
 
 /// The work of `nadir localize` and of the second half of `nadir run`: run every seed, write,
@@ -52,7 +56,8 @@ class LocalizeJob {
 
   /// --dry-run: says what would be done; returns the exit code.
   int explain() const;
-  /// Returns the exit code: 0, 4 where no frame could be compared, 130 where it was interrupted.
+  /// Returns the exit code: 4 where no frame could be compared, 5 where poses or local maps are
+  /// doubtful.
   int run();
 
  private:
@@ -64,8 +69,9 @@ class LocalizeJob {
   void follow_map();
   void draw(const Orthomosaic& map, const SeedRun& run, const std::filesystem::path& folder);
   void write_summary_files(const std::vector<SeedRun>& runs, const std::filesystem::path& folder,
-                           double seconds) const;
-  void report(const std::vector<SeedRun>& runs) const;
+                           const Verdict& verdict, double seconds) const;
+  Verdict verdict_of(const std::vector<SeedRun>& runs) const;
+  void report(const std::vector<SeedRun>& runs, const Verdict& verdict) const;
 
   const LocalizeOptions& options_;
   const Invocation& invocation_;

@@ -9,6 +9,7 @@
 #include "invocation.hpp"
 #include "nadir/aerial_mapping/aerial_map.hpp"
 #include "streams.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 
@@ -37,6 +38,10 @@ void make_folder_of(const std::filesystem::path& map);
 
 /// Writes the rasters and the poses, the map last: where it is, all is.
 void write_map_files(const MapFiles& files, const AerialMap& map);
+
+/// What of the photos and of the map must not be relied on unseen; photos that do not join it
+/// among that, unless `allow_parts`.
+Verdict verdict_of(const AerialMap& map, const FlightInput& input, bool allow_parts);
 
 /// What `--json` prints: a summary.
 Json summary_of(const AerialMap& map, const FlightInput& input);

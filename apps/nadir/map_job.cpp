@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -101,17 +102,6 @@ AerialMap map_resumably(const PhotoSet& photos, const AerialMappingOptions& opti
   }
 }
 
-/// "photos A..F do not join B..K", where they do not.
-std::optional<std::string> parts_of(const AdjustmentReport& report) {
-  if (report.components.size() < 2) return std::nullopt;
-  std::vector<std::string> others;
-  for (std::size_t i = 1; i < report.components.size(); ++i) {
-    others.insert(others.end(), report.components[i].begin(), report.components[i].end());
-  }
-  return fmt::format("{} do not join {}: the map shows the latter alone", listed(others),
-                     listed(report.components.front()));
-}
-
 }  // namespace
 
 MappingProgress mapping_progress(const CommonOptions& common) {
@@ -184,14 +174,15 @@ int write_map(AerialMap map, const FlightInput& input, const MapOptions& options
   write_file(files.page, report_page(map, input, options.map.filename().string()));
   write_map_files(files, map);
   map.report.seconds.emplace_back("write", stopwatch.seconds());
-  write_file(files.report, json_text(report_of(map, input), 2) + "\n");
-  for (const std::string& warning : map.report.warnings) print_note(warning, common.quiet);
-  common.json ? print(summary_of(map, input))
-              : print(text_of(map, input) + "written to " + options.map.string() + "\n");
-  const auto parts = parts_of(map.report);
-  if (!parts || options.allow_parts) return 0;
-  print_error(*parts + "; give --allow-parts to take that as a success");
-  return static_cast<int>(ErrorKind::kProcessing);
+  const Verdict verdict = verdict_of(map, input, options.allow_parts);
+  Json report = report_of(map, input);
+  add_verdict(report, verdict);
+  write_file(files.report, json_text(report, 2) + "\n");
+  for (const std::string& warning : map.report.warnings) {
+    if (std::ranges::count(map.report.doubts, warning) == 0) print_note(warning, common.quiet);
+  }
+  return finish(summary_of(map, input),
+                text_of(map, input) + "written to " + options.map.string() + "\n", verdict, common);
 }
 
 int map_flight(const MapOptions& options, const Invocation& invocation) {

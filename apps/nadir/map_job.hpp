@@ -22,8 +22,8 @@ struct MapOptions {
   OptionSources sources;
 };
 
-/// Photos of a finished flight -> map. Returns the exit code: 0, 1 where not all photos join and
-/// parts are not allowed.
+/// Photos of a finished flight -> map. Returns the exit code: 5 where the map is doubtful, as where
+/// not all photos join and parts are not allowed.
 int map_flight(const MapOptions& options, const Invocation& invocation);
 
 /// Writes the map's files and reports it; returns the exit code as map_flight does.

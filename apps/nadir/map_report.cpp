@@ -68,7 +68,28 @@ Json control_json(const ControlPointReport& point) {
           {"outlier", point.outlier}};
 }
 
+/// "photos A..F do not join B..K", where they do not.
+std::optional<std::string> parts_of(const AdjustmentReport& report) {
+  if (report.components.size() < 2) return std::nullopt;
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < report.components.size(); ++i) {
+    others.insert(others.end(), report.components[i].begin(), report.components[i].end());
+  }
+  return fmt::format(
+      "{} do not join {}: the map shows the latter alone; give --allow-parts to take that as a "
+      "success",
+      listed(others), listed(report.components.front()));
+}
+
 }  // namespace
+
+Verdict verdict_of(const AerialMap& map, const FlightInput& input, bool allow_parts) {
+  Verdict verdict(input.doubts);
+  verdict.doubt(map.report.doubts);
+  const auto parts = parts_of(map.report);
+  if (parts && !allow_parts) verdict.doubt(*parts);
+  return verdict;
+}
 
 Json summary_of(const AerialMap& map, const FlightInput& input) {
   const AdjustmentReport& report = map.report;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +13,7 @@
 #include "manifest_of.hpp"
 #include "match_scene.hpp"
 #include "nadir/core/error.hpp"
+#include "nadir/evaluation/evaluation.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "output_folder.hpp"
@@ -17,6 +21,7 @@
 #include "stopwatch.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -62,12 +67,39 @@ std::string reason(MatchStatus status) {
                "holes of the local map, and map_matching.min_valid_weight";
 }
 
-void require_found(const std::vector<ScoredMatch>& matches, int frame) {
-  if (std::ranges::any_of(matches, [](const auto& m) { return !m.result.candidates.empty(); })) {
-    return;
+/// A true pose that the best place does not lie near.
+std::vector<std::string> misses_of_truth(const ScoredMatch& match,
+                                         const std::optional<Pose2>& truth,
+                                         const std::string& where) {
+  if (!truth || match.result.candidates.empty()) return {};
+  const Pose2& best = match.result.candidates.front().map_from_robot;
+  const double off_m = std::hypot(best.x - truth->x, best.y - truth->y);
+  if (off_m <= kLostBeyond) return {};
+  return {fmt::format("{}: the best place lies {:.1f} m from the true one", where, off_m)};
+}
+
+/// Of the score that was asked for; beside it, --all-scores compares what they can.
+Verdict verdict_of(const std::vector<ScoredMatch>& matches, const MatchScene& scene, Score asked) {
+  Verdict verdict;
+  const std::string where = "frame " + std::to_string(scene.frame);
+  if (std::ranges::all_of(matches, [](const auto& m) { return m.result.candidates.empty(); })) {
+    verdict.nothing_found({ErrorKind::kNoResult, "no place in the region could be compared", where,
+                           reason(matches.front().result.status)});
+    return verdict;
   }
-  throw Error(ErrorKind::kNoResult, "no place in the region could be compared",
-              "frame " + std::to_string(frame), reason(matches.front().result.status));
+  const auto match = std::ranges::find(matches, asked, &ScoredMatch::score);
+  if (match == matches.end()) return verdict;
+  if (match->result.candidates.empty()) {
+    verdict.doubt(fmt::format("{}: {} found no place, other scores did; {}", where,
+                              to_string(asked), reason(match->result.status)));
+  } else if (match->result.status == MatchStatus::kAmbiguous) {
+    verdict.doubt(
+        fmt::format("{}: another place fits nearly as well as the best (peak ratio {:.2f}); search "
+                    "a smaller window, or localize over several frames",
+                    where, match->result.peak_ratio));
+  }
+  verdict.doubt(misses_of_truth(*match, scene.truth, where));
+  return verdict;
 }
 
 int run(const MatchVerbOptions& options, const Invocation& invocation) {
@@ -90,16 +122,17 @@ int run(const MatchVerbOptions& options, const Invocation& invocation) {
   note_device(common);
   const Stopwatch stopwatch;
   const auto matches = match_all(options, scene, effective.values().matching, output.staging());
-  const Json document = to_json(matches, scene);
+  const Verdict verdict = verdict_of(matches, scene, effective.values().matching.score);
+  Json document = to_json(matches, scene);
+  add_verdict(document, verdict);
   write_file(output.staging() / "match.json", json_text(document, 2) + "\n");
   Manifest manifest = manifest_of(invocation, limit.threads(), inputs);
   manifest.stages.push_back({"match", stopwatch.seconds()});
+  manifest.doubts = verdict.doubts();
   write_manifest(output.staging(), manifest, effective.table(), effective.origins());
   output.commit();
-  common.json ? print(document)
-              : print(scene.choice.explanation + "\n" + to_table(matches, scene.truth));
-  require_found(matches, scene.frame);
-  return 0;
+  return finish(document, scene.choice.explanation + "\n" + to_table(matches, scene.truth), verdict,
+                common);
 }
 
 void add_region(CLI::App& verb, RegionOptions& region) {

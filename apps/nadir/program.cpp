@@ -3,15 +3,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "libraries.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/core/options.hpp"
 #include "streams.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -20,8 +23,7 @@ constexpr const char* kExample =
     "Example:\n"
     "  nadir demo -o out/demo\n"
     "\n"
-    "`nadir VERB --help` explains a verb and shows examples. Exit codes: 0 done, 1 processing\n"
-    "failed, 2 usage, 3 input, 4 nothing found, 130 interrupted.\n";
+    "`nadir VERB --help` explains a verb and shows examples.\n";
 
 /// The innermost verb that was named.
 const CLI::App& chosen(const CLI::App& program) {
@@ -79,9 +81,23 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   return {ErrorKind::kUsage, error.what(), full_name(verb), "see `" + help + "`"};
 }
 
-/// Also where the arguments could not be parsed to their end.
+/// Also where the arguments could not be parsed to their end; behind "--" are names.
 bool wants_json(const Invocation& invocation) {
-  return invocation.common.json || std::ranges::count(invocation.arguments, "--json") > 0;
+  const auto& words = invocation.arguments;
+  const auto names = std::ranges::find(words, "--");
+  return invocation.common.json || std::count(words.begin(), names, "--json") > 0;
+}
+
+/// The end of a verb that gave no result: one line, unless there is nothing to say, and with --json
+/// a document. Neither must throw: this is the last that happens.
+int give_up(const Invocation& invocation, const std::string& message, int exit_code,
+            bool say = true) {
+  if (say) print_error(message);
+  try {
+    if (wants_json(invocation) && !document_printed()) print(error_document(message, exit_code));
+  } catch (const std::exception&) {  // standard output is gone, and that may be what happened
+  }
+  return exit_code;
 }
 
 int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv) {
@@ -92,7 +108,7 @@ int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv)
     print(verb.help(verb.get_parent() == nullptr ? "" : full_name(*verb.get_parent())));
     return 0;
   } catch (const CLI::CallForVersion&) {
-    print(version_text());
+    wants_json(invocation) ? print(version_document()) : print(version_text());
     return 0;
   } catch (const CLI::ParseError& error) {
     throw usage_error(program, error);
@@ -104,31 +120,30 @@ int run_parsed(CLI::App& program, Invocation& invocation, int argc, char** argv)
   return invocation.action();
 }
 
+constexpr int kFailed = static_cast<int>(ExitCode::kFailed);
+
 }  // namespace
 
 int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
+  expect_document();
   std::copy(argv + std::min(argc, 1), argv + argc, std::back_inserter(invocation.arguments));
   program.require_subcommand(0, 1);
   program.set_version_flag("--version", std::string{}, "Print version, libraries and licences");
-  program.footer(kExample);
+  program.footer(std::string(kExample) + exit_codes_in_words());
   try {
     return run_parsed(program, invocation, argc, argv);
   } catch (const Error& error) {
-    print_error(error.what());
-    const int exit_code = static_cast<int>(error.kind());
-    // Where nothing was found, the document that says so has been printed already.
-    if (wants_json(invocation) && error.kind() != ErrorKind::kNoResult) {
-      print(Json{{"error", {{"message", error.what()}, {"exit_code", exit_code}}}});
-    }
-    return exit_code;
+    return give_up(invocation, error.what(), static_cast<int>(error.kind()));
   } catch (const Interrupted&) {
-    return kInterruptedExitCode;
+    return give_up(invocation, "stopped by a signal", interrupted_exit_code(), false);
   } catch (const std::bad_alloc&) {
-    print_error("out of memory; a smaller map or a coarser resolution needs less");
+    return give_up(invocation, "out of memory; a smaller map or a coarser resolution needs less",
+                   kFailed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return give_up(invocation, error.path1().string() + ": " + error.code().message(), kFailed);
   } catch (const std::exception& error) {
-    print_error(error.what());
+    return give_up(invocation, error.what(), kFailed);
   }
-  return static_cast<int>(ErrorKind::kProcessing);
 }
 
 }  // namespace nadir::cli

@@ -5,9 +5,9 @@
 
 namespace nadir::cli {
 
-/// Parses the arguments and runs the chosen verb; returns the exit code: 0 done, 1 processing
-/// failed, 2 usage, 3 input, 4 nothing found, 130 interrupted. A failure is one line on standard
-/// error.
+/// Parses the arguments and runs the chosen verb; returns the exit code (exit_code.hpp). A failure
+/// is one line on standard error. With --json standard output gets one document, however it ends;
+/// help alone stays text.
 int run(CLI::App& program, Invocation& invocation, int argc, char** argv);
 
 }  // namespace nadir::cli

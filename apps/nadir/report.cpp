@@ -11,6 +11,7 @@
 #include "nadir/io/input_file.hpp"
 #include "run_report.hpp"
 #include "verbs.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -56,13 +57,9 @@ int run(const ReportOptions& options, const Invocation& invocation) {
                 "give --overwrite to replace it, or another -o");
   }
   const fs::path page = written_page(options);
-  if (invocation.common.json) {
-    print(Json{
-        {"run", options.run.string()}, {"report", page.string()}, {"bytes", fs::file_size(page)}});
-  } else {
-    print(fmt::format("open {}\n", page.string()));
-  }
-  return 0;
+  const Json document{
+      {"run", options.run.string()}, {"report", page.string()}, {"bytes", fs::file_size(page)}};
+  return finish(document, fmt::format("open {}\n", page.string()), {}, invocation.common);
 }
 
 }  // namespace

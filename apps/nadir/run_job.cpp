@@ -39,6 +39,7 @@ LocalizeInput RunJob::input_of(const std::filesystem::path& place, int seeds) {
   input.read = [this, seeds](const Sequence::LocalMap& local_map) {
     return seeds == 1 ? map(local_map) : map_once(local_map);
   };
+  input.doubts = [this] { return mapping_.doubts(); };
   return input;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -14,10 +15,8 @@ namespace {
 
 constexpr std::size_t kMostStretches = 6;
 /// From here on the reader is told.
-constexpr double kUncertainBeyond = 2.0;  ///< metres
-constexpr double kLeastCompared = 0.9;    ///< share of the frames
-constexpr double kLeastInside = 0.85;     ///< share of the frames under their 95 % quantile
-constexpr double kSureOfCluster = 0.9;    ///< share of the weight
+constexpr double kLeastCompared = 0.9;  ///< share of the frames
+constexpr double kLeastInside = 0.85;   ///< share of the frames under their 95 % quantile
 
 std::string frames_text(std::size_t count) {
   return fmt::format("{} frame{}", count, count == 1 ? "" : "s");
@@ -46,13 +45,6 @@ void warn_of_frames(const RunRecord& run, std::vector<std::string>& warnings) {
 
 void warn_of_accuracy(const Judgement& judgement, std::vector<std::string>& warnings) {
   const Evaluation& e = judgement.evaluation;
-  if (e.lost_count > 0) {
-    warnings.push_back(fmt::format("The estimate was more than {:g} m from the truth {} time{}.",
-                                   kLostBeyond, e.lost_count, e.lost_count == 1 ? "" : "s"));
-  }
-  if (!e.time_to_converge_s) {
-    warnings.push_back("The error did not come to stay under 1 m.");
-  }
   if (e.unanswered_frames > 0) {
     warnings.push_back(fmt::format("{} with a truth got no estimate.",
                                    frames_text(static_cast<std::size_t>(e.unanswered_frames))));
@@ -65,18 +57,16 @@ void warn_of_accuracy(const Judgement& judgement, std::vector<std::string>& warn
   }
 }
 
-void warn_of_end(const RunRecord& run, std::vector<std::string>& warnings) {
+/// A reason as errors have it, as a sentence.
+std::string sentence(std::string reason) {
+  reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
+  return reason + ".";
+}
+
+RunSummary summary_of(const RunRecord& run) {
   const ViewFrame& last = run.frames.back();
-  if (two_sigma_m(last.covariance) > kUncertainBeyond) {
-    warnings.push_back(fmt::format("At the end the position is uncertain by {:.1f} m (2 sigma).",
-                                   two_sigma_m(last.covariance)));
-  }
-  if (last.cluster_mass < kSureOfCluster) {
-    warnings.push_back(
-        fmt::format("At the end the particles stand in {} places: the estimate is the heaviest, "
-                    "with {:.0f} % of the weight.",
-                    last.clusters, 100.0 * last.cluster_mass));
-  }
+  return {run.frames.size(), compared(run), last.covariance,
+          last.cluster_mass, last.clusters, run.judgement ? &*run.judgement : nullptr};
 }
 
 bool was_interrupted(const RunRecord& run) {
@@ -135,13 +125,6 @@ std::string status_in_words(const std::string& status) {
   return status;
 }
 
-double two_sigma_m(const PoseCovariance& covariance) {
-  // The larger eigenvalue of the 2 x 2 block of the position.
-  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
-  const double half = std::hypot(0.5 * (covariance(0, 0) - covariance(1, 1)), covariance(0, 1));
-  return 2.0 * std::sqrt(std::max(0.0, mean + half));
-}
-
 double two_sigma_yaw_rad(const PoseCovariance& covariance) {
   return 2.0 * std::sqrt(std::max(0.0, covariance(2, 2)));
 }
@@ -158,7 +141,9 @@ RunWords words_of(const RunRecord& run) {
   }
   warn_of_frames(run, words.warnings);
   if (run.judgement) warn_of_accuracy(*run.judgement, words.warnings);
-  warn_of_end(run, words.warnings);
+  for (const std::string& doubt : doubts_of(summary_of(run))) {
+    words.warnings.push_back(sentence(doubt));
+  }
   words.good = words.warnings.empty() && compared(run) > 0;
   return words;
 }

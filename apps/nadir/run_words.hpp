@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "run_doubts.hpp"
 #include "run_record.hpp"
 
 namespace nadir::cli {
@@ -23,9 +24,7 @@ std::string stretches(const std::vector<int>& numbers);
 /// A status of frames.csv in words; one that this version does not know as it is.
 std::string status_in_words(const std::string& status);
 
-/// Two standard deviations of the position along its most uncertain direction, metres, and of the
-/// heading, radians.
-double two_sigma_m(const PoseCovariance& covariance);
+/// Two standard deviations of the heading, radians; of the position: run_doubts.hpp.
 double two_sigma_yaw_rad(const PoseCovariance& covariance);
 
 }  // namespace nadir::cli

@@ -18,6 +18,7 @@
 #include "streams.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -166,8 +167,7 @@ int run(const SimulateOptions& options, const Invocation& invocation) {
   manifest.stages.push_back({"simulate", stopwatch.seconds()});
   write_manifest(output.staging(), manifest, effective.table(), effective.origins());
   output.commit();
-  common.json ? print(document) : print(in_words(document) + where(options));
-  return 0;
+  return finish(document, in_words(document) + where(options), {}, common);
 }
 
 void add_world(CLI::App& verb, SimulateOptions& options) {

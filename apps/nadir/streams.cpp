@@ -17,7 +17,9 @@ namespace nadir::cli {
 namespace {
 
 std::string in_one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
+  constexpr unsigned char kDelete = 0x7f;
+  const auto controls = [](unsigned char byte) { return byte < ' ' || byte == kDelete; };
+  std::ranges::replace_if(text, controls, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
 }
@@ -25,9 +27,17 @@ std::string in_one_line(std::string text) {
 /// Where print() goes instead of standard output.
 std::string* captured = nullptr;
 
+bool printed_document = false;
+
 bool colours_wanted() {
   const char* no_color = std::getenv("NO_COLOR");
   return isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
+}
+
+void print_marked(const char* mark, const char* colour, const std::string& message) {
+  const bool colours = colours_wanted();
+  std::fprintf(stderr, "nadir: %s%s%s %s\n", colours ? colour : "", mark, colours ? "\033[0m" : "",
+               in_one_line(message).c_str());
 }
 
 }  // namespace
@@ -46,12 +56,18 @@ void print(const std::string& text) {
   throw Error(ErrorKind::kProcessing, std::strerror(errno), "standard output");
 }
 
-void print(const Json& document) { print(json_text(document, 2) + "\n"); }
+void print(const Json& document) {
+  if (captured == nullptr) printed_document = true;
+  print(json_text(document, 2) + "\n");
+}
 
-void print_error(const std::string& message) {
-  const bool colours = colours_wanted();
-  std::fprintf(stderr, "nadir: %serror:%s %s\n", colours ? "\033[31m" : "",
-               colours ? "\033[0m" : "", in_one_line(message).c_str());
+bool document_printed() { return printed_document; }
+void expect_document() { printed_document = false; }
+
+void print_error(const std::string& message) { print_marked("error:", "\033[31m", message); }
+
+void print_doubt(const std::string& message) {
+  if (captured == nullptr) print_marked("doubtful:", "\033[33m", message);
 }
 
 void print_note(const std::string& message, bool quiet) {

@@ -7,14 +7,24 @@
 
 namespace nadir::cli {
 
+// What standard error gets is one line each time: control characters, as file names may hold them,
+// become blanks.
+
 /// The only way to standard output: results. A reader that has gone away is no error; throws Error
 /// (processing) where the text could not be written for another reason, as on a full disk.
 void print(const std::string& text);
 /// One document, indented, with a newline; a number that is not finite becomes null.
 void print(const Json& document);
 
+/// Whether standard output has got a document since the start, or since the last of these calls.
+bool document_printed();
+void expect_document();
+
 /// "nadir: error: …" on standard error, in one line; red on a terminal unless NO_COLOR is set.
 void print_error(const std::string& message);
+/// "nadir: doubtful: …" on standard error, in the same way; nothing where the output is captured,
+/// as the document holds it.
+void print_doubt(const std::string& message);
 /// "nadir: …" on standard error, unless `quiet`.
 void print_note(const std::string& message, bool quiet);
 

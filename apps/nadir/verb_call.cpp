@@ -6,6 +6,7 @@
 
 #include "all_verbs.hpp"
 #include "captured_output.hpp"
+#include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/shell.hpp"
@@ -29,8 +30,9 @@ Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& c
   // CLI11 takes a vector from its end.
   program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   const int exit_code = invocation.action();
-  if (exit_code == kInterruptedExitCode) throw Interrupted{};
-  if (exit_code != 0) {
+  if (interrupted()) throw Interrupted{};
+  if (exit_code != static_cast<int>(ExitCode::kDone) &&
+      exit_code != static_cast<int>(ExitCode::kDoubtful)) {
     throw Error(ErrorKind::kProcessing, "ended with exit code " + std::to_string(exit_code),
                 command_line(arguments));
   }

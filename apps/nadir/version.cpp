@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <nlohmann/json.hpp>
-
 #include "add_verb.hpp"
 #include "libraries.hpp"
 #include "streams.hpp"
@@ -12,17 +10,7 @@ namespace {
 struct VersionOptions {};
 
 int run(const VersionOptions&, const Invocation& invocation) {
-  if (!invocation.common.json) {
-    print(version_text());
-    return 0;
-  }
-  Json document{{"nadir", program_version()}, {"licence", "Apache-2.0"}};
-  document["libraries"] = Json::array();
-  for (const Library& library : libraries()) {
-    document["libraries"].push_back(
-        {{"name", library.name}, {"version", library.version}, {"licence", library.licence}});
-  }
-  print(document);
+  invocation.common.json ? print(version_document()) : print(version_text());
   return 0;
 }
 

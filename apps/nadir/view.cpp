@@ -31,7 +31,7 @@ int run(const ViewOptions& options, const Invocation& invocation) {
   }
   wait_for_interrupt();
   server.stop();
-  return 0;
+  return 0;  // it has no end of its own
 }
 
 }  // namespace

@@ -203,6 +203,8 @@ TEST_F(Mapping, WithoutPositionsTheGivenPixelSizeIsTheScale) {
   AerialMap map = mapped(flight.set, quick_options());
   EXPECT_EQ(map.report.registered, 12);
   EXPECT_EQ(map.report.scale_source, ScaleSource::kNone);
+  ASSERT_EQ(map.report.doubts.size(), 1U);
+  EXPECT_NE(map.report.doubts.front().find("the scale is arbitrary"), std::string::npos);
   EXPECT_FALSE(map.report.warnings.empty());
   flight.set.metres_per_photo_pixel = 40.0 / 400.0;
   map = mapped(flight.set, quick_options());
@@ -295,6 +297,7 @@ TEST_F(Mapping, AGroundThatIsNotWhereTheAltitudeSaysIsDoubtful) {
   for (MappingPhoto& photo : flight.set.photos) *photo.prior.relative_altitude_m *= 1.4;
   const AerialMap map = mapped(flight.set, quick_options());
   EXPECT_TRUE(warns(map, "surface doubtful", "nearer"));
+  EXPECT_TRUE(map.report.doubts.empty()) << "the positions hold the scale: a hill explains it";
   EXPECT_FALSE(warns(mapped(small_flight().set, quick_options()), "surface doubtful", ""));
 }
 
@@ -308,6 +311,7 @@ TEST_F(Mapping, HeightsThatTrendAgainstThePositionsAreDoubtful) {
   }
   const AerialMap map = mapped(flight.set, quick_options());
   EXPECT_TRUE(warns(map, "surface doubtful", "against the positions"));
+  EXPECT_EQ(map.report.doubts.size(), 1U);
 }
 
 TEST_F(Mapping, AFreeFocalLengthOverFlatGroundIsHeld) {

@@ -107,7 +107,7 @@ TEST(Follow, GrowsWithEveryPhotoAndEndsAsTheWholeMap) {
   }
   process.interrupt();
   const Outcome outcome = process.wait();
-  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const Json last = Json::parse(read_file(update));
   EXPECT_EQ(last["final"], true);
   EXPECT_EQ(last["version"], 7);
@@ -130,7 +130,7 @@ TEST(Follow, EndsByItselfAndSaysWhereNothingCame) {
   EXPECT_NE(outcome.errors.find("no photo came"), std::string::npos) << outcome.errors;
 }
 
-TEST(Mapping, PartsThatDoNotMeetAreNamedAndFailUnlessAllowed) {
+TEST(Mapping, PartsThatDoNotMeetAreNamedAndDoubtfulUnlessAllowed) {
   const fs::path folder = scratch_folder() / "parts";
   test::FlightPlan plan{.strips = 2, .photos = 3, .middle = {-35.0, -20.0}};
   write_flight(folder / "photos", plan);
@@ -139,7 +139,7 @@ TEST(Mapping, PartsThatDoNotMeetAreNamedAndFailUnlessAllowed) {
   std::vector<std::string> arguments = with_quick(
       {"map", (folder / "photos").string(), "-o", (folder / "map.tif").string(), "--json"});
   Outcome outcome = nadir(arguments);
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 5);
   for (const char* part : {"q100.jpg, q101.jpg, q102.jpg, q103.jpg do not join p100.jpg",
                            "--allow-parts", "4 of 10 photos do not join"}) {
     EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " in:\n" << outcome.errors;

@@ -6,10 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 namespace nadir::testing {
 namespace {
@@ -49,7 +51,7 @@ fs::path scratch_folder() {
 }
 
 NadirProcess::NadirProcess(const std::vector<std::string>& arguments,
-                           const std::vector<std::string>& environment) {
+                           const std::vector<std::string>& environment, const fs::path& folder) {
   static int started = 0;
   output_ = scratch_folder() / ("stdout_" + std::to_string(++started));
   errors_ = scratch_folder() / ("stderr_" + std::to_string(started));
@@ -63,14 +65,25 @@ NadirProcess::NadirProcess(const std::vector<std::string>& arguments,
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_.c_str(), kFlags, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), kFlags, 0600);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   const int error = posix_spawn(&process_, NADIR_PROGRAM, &actions, nullptr, pointers(words).data(),
                                 pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " NADIR_PROGRAM);
 }
 
-void NadirProcess::interrupt() const { kill(process_, SIGINT); }
+void NadirProcess::send(int signal) const { kill(process_, signal); }
+void NadirProcess::interrupt() const { send(SIGINT); }
 
+void NadirProcess::send_when(int signal, const std::string& said) const {
+  const auto holds = [&](const std::string& text) { return text.find(said) != std::string::npos; };
+  for (int i = 0; i < 600 && !holds(output_so_far()) && !holds(errors_so_far()); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  send(signal);
+}
+
+std::string NadirProcess::output_so_far() const { return read_file(output_); }
 std::string NadirProcess::errors_so_far() const { return read_file(errors_); }
 
 Outcome NadirProcess::wait() {
@@ -83,6 +96,10 @@ Outcome NadirProcess::wait() {
 Outcome nadir(const std::vector<std::string>& arguments,
               const std::vector<std::string>& environment) {
   return NadirProcess(arguments, environment).wait();
+}
+
+Outcome nadir_in(const fs::path& folder, const std::vector<std::string>& arguments) {
+  return NadirProcess(arguments, {}, folder).wait();
 }
 
 std::string read_file(const fs::path& path) {

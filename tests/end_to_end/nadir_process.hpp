@@ -19,14 +19,19 @@ struct Outcome {
 /// A running `nadir`; its streams go to files.
 class NadirProcess {
  public:
-  /// `environment` adds "NAME=value" entries.
+  /// `environment` adds "NAME=value" entries; `folder` is the current one of the process.
   explicit NadirProcess(const std::vector<std::string>& arguments,
-                        const std::vector<std::string>& environment = {});
+                        const std::vector<std::string>& environment = {},
+                        const std::filesystem::path& folder = {});
   NadirProcess(const NadirProcess&) = delete;
   NadirProcess& operator=(const NadirProcess&) = delete;
 
+  void send(int signal) const;
   void interrupt() const;
-  /// What standard error holds so far.
+  /// Sends the signal once a stream holds the text, or after a minute.
+  void send_when(int signal, const std::string& said) const;
+  /// What the streams hold so far.
+  std::string output_so_far() const;
   std::string errors_so_far() const;
   Outcome wait();
 
@@ -39,6 +44,9 @@ class NadirProcess {
 /// Runs `nadir` to its end.
 Outcome nadir(const std::vector<std::string>& arguments,
               const std::vector<std::string>& environment = {});
+
+/// The same in a folder, which relative paths start from.
+Outcome nadir_in(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 /// A folder of this process that goes when the process ends.
 std::filesystem::path scratch_folder();

@@ -95,6 +95,8 @@ struct AdjustmentReport {
   double scale_sigma = 0.0;        ///< relative; 0 where the scale is arbitrary
   double heading_sigma_deg = 0.0;  ///< 0 where the heading is arbitrary
   std::vector<std::string> warnings;
+  /// Those of the warnings for which the map must not be relied on unseen.
+  std::vector<std::string> doubts;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order
 };
 

@@ -111,6 +111,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
       {"inputs", describe_inputs(manifest.inputs)},
       {"sources", describe_sources(manifest.sources)},
       {"stages", describe_stages(manifest.stages)},
+      {"doubtful", manifest.doubts},
       {"host", describe_host()}};
   write_file(folder / "manifest.json", json_text(document, 2) + "\n");
 }

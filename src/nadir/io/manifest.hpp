@@ -31,6 +31,7 @@ struct Manifest {
   /// The parts that a later look at the output needs again, by their role: "site", "map".
   std::vector<std::pair<std::string, std::filesystem::path>> sources;
   std::vector<Stage> stages;
+  std::vector<std::string> doubts;  ///< why the output must not be relied on unseen
   std::chrono::system_clock::time_point started = std::chrono::system_clock::now();
 };
 

@@ -63,11 +63,20 @@ constexpr int kManyViews = 3;
 constexpr double kDoubtfulAltitude = 0.1;
 constexpr double kDoubtfulTrend = 0.05;  // of the flying height, over the block
 constexpr std::size_t kFewestForTrend = 8;
+constexpr double kFarPosition = 10.0;  // metres; no receiver in the open is that far off
+constexpr double kFarSigmas = 5.0;
+constexpr double kRoughScale = 0.05;  // relative: 1 m over the 20 m of a local map
 
 std::string number(double value, int digits) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   return text.data();
+}
+
+/// A warning for which the map must not be relied on unseen.
+void doubt(AdjustmentReport& report, const std::string& reason) {
+  report.warnings.push_back(reason);
+  report.doubts.push_back(reason);
 }
 
 void report_observations(const PhotoSet& set, const Reconstruction& found,
@@ -92,6 +101,20 @@ void report_observations(const PhotoSet& set, const Reconstruction& found,
   report.points = total.points;
   report.observations = total.observations;
   report.reprojection_px = total.rms;
+}
+
+/// Positions far from where the photos put them are not those of these photos, or not in this
+/// reference system.
+void report_far_positions(const PhotoSet& set, double usual_sigma_m, AdjustmentReport& report) {
+  std::vector<double> sigmas;
+  for (const MappingPhoto& photo : set.photos)
+    if (photo.prior.position)
+      sigmas.push_back(photo.prior.horizontal_sigma_m.value_or(usual_sigma_m));
+  if (!report.position_residual_m || sigmas.empty()) return;
+  if (*report.position_residual_m <= std::max(kFarPosition, kFarSigmas * median_of(sigmas))) return;
+  doubt(report, "the photos' positions differ by " + number(*report.position_residual_m, 1) +
+                    " m (root mean square, horizontal) from where the photos put them: check that "
+                    "they are those of these photos, and their reference system");
 }
 
 void report_positions(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
@@ -148,8 +171,8 @@ void report_trend(const PhotoSet& set, const Reconstruction& found, AdjustmentRe
   const double scatter = std::sqrt((values - trend).squaredNorm() / static_cast<double>(n));
   const double height = middle.z() - found.state.ground;
   if (range > kDoubtfulTrend * height && range > 4.0 * scatter)
-    report.warnings.push_back("surface doubtful: the heights rise by " + number(range, 1) +
-                              " m against the positions over the block: tilted or bent");
+    doubt(report, "surface doubtful: the heights rise by " + number(range, 1) +
+                      " m against the positions over the block: tilted or bent");
 }
 
 void report_control(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
@@ -184,12 +207,15 @@ void report_control(const PhotoSet& set, const Reconstruction& found, Adjustment
     control.outlier =
         std::hypot(residual.x(), residual.y()) > allowed_xy || std::abs(residual.z()) > allowed_z;
     if (control.outlier)
-      report.warnings.push_back("control point " + point.name + " is off by " +
-                                number(residual.x(), 2) + ", " + number(residual.y(), 2) + ", " +
-                                number(residual.z(), 2) +
-                                " m: check its coordinates and its marks");
+      doubt(report, "control point " + point.name + " is off by " + number(residual.x(), 2) + ", " +
+                        number(residual.y(), 2) + ", " + number(residual.z(), 2) +
+                        " m: check its coordinates and its marks");
     report.control_points.push_back(control);
   }
+  if (!set.control_points.empty() && found.scale_source != ScaleSource::kControlPoints)
+    doubt(report,
+          "the control points have no part in the map: check the names of the photos in "
+          "their list, and that three of them have two marks each");
 }
 
 void report_groups(const PhotoSet& set, const Reconstruction& found, AdjustmentReport& report) {
@@ -213,13 +239,15 @@ void report_scale(const PhotoSet& set, const Reconstruction& found, AdjustmentRe
   report.scale_sigma = found.scale_sigma;
   report.heading_sigma_deg = found.heading_sigma_rad / kDegree;
   if (found.scale_source == ScaleSource::kNone)
-    report.warnings.emplace_back(
-        "the scale is arbitrary: nothing says how large the ground is; give positions, control "
-        "points or the size of a photo's pixel on the ground");
-  if (found.scale_source == ScaleSource::kRelativeAltitude)
-    report.warnings.push_back(
+    doubt(report,
+          "the scale is arbitrary: nothing says how large the ground is; give positions, control "
+          "points or the size of a photo's pixel on the ground");
+  if (found.scale_source == ScaleSource::kRelativeAltitude) {
+    const std::string rough =
         "the scale comes from the height above take-off alone: uncertain by " +
-        number(100.0 * found.scale_sigma, 0) + " %");
+        number(100.0 * found.scale_sigma, 0) + " %";
+    found.scale_sigma > kRoughScale ? doubt(report, rough) : report.warnings.push_back(rough);
+  }
   // [6] against the ground that was found.
   std::vector<double> ratios;
   for (std::size_t i = 0; i < set.photos.size(); ++i) {
@@ -229,12 +257,16 @@ void report_scale(const PhotoSet& set, const Reconstruction& found, AdjustmentRe
   }
   if (ratios.empty() || found.scale_source == ScaleSource::kNone) return;
   const double off = median_of(ratios) - 1.0;
-  if (std::abs(off) > kDoubtfulAltitude)
-    report.warnings.push_back("surface doubtful: the ground lies " +
-                              number(100.0 * std::abs(off), 0) + " % " +
-                              (off > 0.0 ? "farther" : "nearer") +
-                              " below the photos than their height above take-off says: the "
-                              "scale is uncertain by as much");
+  if (std::abs(off) <= kDoubtfulAltitude) return;
+  const std::string altitude = "surface doubtful: the ground lies " +
+                               number(100.0 * std::abs(off), 0) + " % " +
+                               (off > 0.0 ? "farther" : "nearer") +
+                               " below the photos than their height above take-off says: the "
+                               "scale is uncertain by as much";
+  // Where positions or control points hold the scale, a take-off from a hill explains it.
+  const bool scale_is_held = found.scale_source == ScaleSource::kPositions ||
+                             found.scale_source == ScaleSource::kControlPoints;
+  scale_is_held ? report.warnings.push_back(altitude) : doubt(report, altitude);
 }
 
 /// Directions that the photos leave open and a prior holds.
@@ -301,6 +333,7 @@ void fill_report(const PhotoSet& set, const Reconstruction& found,
                  AdjustmentReport& report) {
   report_observations(set, found, report);
   report_positions(set, found, report);
+  report_far_positions(set, options.gps_sigma_m, report);
   report_trend(set, found, report);
   report_control(set, found, report);
   report_groups(set, found, report);
