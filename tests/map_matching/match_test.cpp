@@ -9,6 +9,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/map_matching/matching.hpp"
 #include "nadir/map_matching/odometry.hpp"
+#include "support/expect_error.hpp"
 
 namespace nadir {
 namespace {
@@ -142,6 +143,28 @@ TEST(Match, NamesWhatIsWrong) {
   EXPECT_EQ(outside.status, MatchStatus::kNoOverlap);
   EXPECT_TRUE(outside.candidates.empty());
   EXPECT_THROW(match(map, far, {.centre = Point2<frames::Map>{NAN, 0.0}}), Error);
+}
+
+TEST(Match, AWindowFarBeyondTheMapOverlapsNothing) {
+  const Texture texture(9);
+  const MapIndex map(texture_map(texture), {});
+  const Template local = make_template(local_map(texture, {12.0, 9.0, 0.0}), {});
+  for (const double far : {1e9, -1e12, 1e300}) {
+    const MatchResult result =
+        match(map, local, {.centre = Point2<frames::Map>{far, -far}, .half_size_m = 1.0});
+    EXPECT_EQ(result.status, MatchStatus::kNoOverlap) << far;
+  }
+}
+
+TEST(Match, RefusesScoresThatNoMemoryHolds) {
+  const Texture texture(9);
+  MatchingOptions options;
+  options.search = Search::kFull;
+  const MapIndex map(texture_map(texture), options);
+  const Template local = make_template(local_map(texture, {12.0, 9.0, 0.0}), options);
+  const SearchRegion region{.centre = Point2<frames::Map>{12.0, 9.0}, .half_size_m = 9e3};
+  test::expect_error(ErrorKind::kUsage, {"1 headings", "GB of memory", "smaller window"},
+                     [&] { match(map, local, region); });
 }
 
 TEST(Match, TakesATemplateLargerThanTheMap) {

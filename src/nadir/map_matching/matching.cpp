@@ -39,7 +39,11 @@ std::vector<double> headings(const SearchRegion& region, double step) {
 
 PixelWindow pixel_window(const ChannelImage& map, const SearchRegion& region) {
   if (!region.centre) return {0, 0, map.value.width(), map.value.height()};
-  const PixelCoordinate centre = map.geo.pixel_at(region.centre->x, region.centre->y);
+  // Beyond it nothing can overlap, and an integer could overflow.
+  constexpr double kFarthestPx = 1e8;
+  PixelCoordinate centre = map.geo.pixel_at(region.centre->x, region.centre->y);
+  centre.column = std::clamp(centre.column, -kFarthestPx, kFarthestPx);
+  centre.row = std::clamp(centre.row, -kFarthestPx, kFarthestPx);
   const double half = region.half_size_m / map.geo.resolution;
   const auto first = [half](double middle) { return static_cast<int>(std::floor(middle - half)); };
   const auto count = [half](double middle) {
@@ -59,11 +63,26 @@ void check(const SearchRegion& region, double step) {
                 "the search region needs a finite centre, heading and range, a size that is not "
                 "negative and a positive yaw step");
   }
-  constexpr double kLargestHalfSize = 1e4;  // metres; beyond it the surfaces cannot be held
+  constexpr double kLargestHalfSize = 1e4;  // metres
   if (region.centre && region.half_size_m > kLargestHalfSize) {
     throw Error(ErrorKind::kUsage, "the search window is larger than 20 km", {},
                 "leave out its centre to search the whole map");
   }
+}
+
+/// A score and a share are held for each position at each heading.
+void check_volume(const PixelWindow& window, std::size_t headings) {
+  constexpr double kBytes = 2.0 * sizeof(float);
+  constexpr double kMostGb = 16.0;
+  const double gb = 1e-9 * kBytes * static_cast<double>(headings) * window.width * window.height;
+  if (gb <= kMostGb) return;
+  throw Error(ErrorKind::kUsage,
+              "the scores of " + std::to_string(headings) + " headings at " +
+                  std::to_string(window.width) + " x " + std::to_string(window.height) +
+                  " positions would take " + std::to_string(std::lround(gb)) + " GB of memory",
+              {},
+              "search a smaller window or fewer headings, or leave map_matching.search at auto, "
+              "which begins at a quarter of the resolution");
 }
 
 Template as_template(ChannelImage channel) {
@@ -84,6 +103,7 @@ ScoreVolume score_volume(const MapIndex& map, const Template& local, const Searc
   volume.geo.west = geo.x_at(window.left);
   volume.geo.north = geo.y_at(window.top);
   volume.yaws = headings(region, step);
+  check_volume(window, volume.yaws.size());
   const std::vector<RotatedTemplate> templates =
       rotate_templates(local.channel, volume.yaws, geo.resolution, pixel_role(map.options()));
   for (ScoreSurface& surface : backend_of(map.options()).score_surfaces(map, templates, window)) {

@@ -109,7 +109,8 @@ struct MatchResult {
 
 /// Scores every robot position of the region at every heading, or, for a large region, at a quarter
 /// of the resolution and then around the best places (MatchingOptions::search): the volume is then
-/// the coarse one.
+/// the coarse one. Throws Error (usage) for a region that is not finite or holds more scores than
+/// memory does (16 GB).
 MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region);
 
 /// A score of one pose; NaN where it is undefined.
