@@ -11,6 +11,7 @@
 
 #include "aerial_mapping/flight.hpp"
 #include "nadir/core/error.hpp"
+#include "support/expect_error.hpp"
 
 namespace nadir {
 namespace {
@@ -341,6 +342,17 @@ TEST_F(Mapping, TakesUpWhatAStoreKept) {
   EXPECT_LT(static_cast<std::size_t>(store.hits), store.size());
   store.cut_all();
   EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+}
+
+TEST_F(Mapping, RefusesMorePhotosThanAMapCanName) {
+  PhotoSet set = small_flight().set;
+  const MappingPhoto photo = set.photos[0];
+  for (int i = 0; set.photos.size() <= 65535; ++i) {
+    set.photos.push_back(photo);
+    set.photos.back().name = "more" + std::to_string(i);
+  }
+  test::expect_error(ErrorKind::kUsage, {"65536 photos", "65535", "in parts"},
+                     [&] { map_photos(set, quick_options()); });
 }
 
 TEST_F(Mapping, OneStripIsHeldByItsGimbal) {

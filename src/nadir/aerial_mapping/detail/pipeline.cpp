@@ -9,6 +9,7 @@
 
 #include "nadir/aerial_mapping/detail/report.hpp"
 #include "nadir/aerial_mapping/flight.hpp"
+#include "nadir/aerial_mapping/ortho/cells.hpp"
 #include "nadir/aerial_mapping/ortho/orthomosaic.hpp"
 #include "nadir/core/error.hpp"
 
@@ -16,6 +17,11 @@ namespace nadir::aerial {
 namespace {
 
 void check(const PhotoSet& photos) {
+  if (photos.photos.size() > kMostLabels)
+    throw Error(ErrorKind::kUsage,
+                std::to_string(photos.photos.size()) + " photos are more than a map can name, " +
+                    std::to_string(kMostLabels),
+                {}, "map the flight in parts");
   std::set<std::string> names;
   for (const MappingPhoto& photo : photos.photos) {
     if (!names.insert(photo.name).second)

@@ -35,6 +35,8 @@ std::vector<ViewCells> look(const std::vector<View>& views, const Ground& ground
 cv::Mat count_views(const std::vector<ViewCells>& cells, const CellGrid& grid);
 
 inline constexpr std::uint16_t kNoView = 65535;
+/// Views, by number, that labels can name.
+inline constexpr std::size_t kMostLabels = kNoView;
 
 /// Lowers all gains alike until hardly any cell of the map is brighter than it can be shown, by a
 /// fourth at most: photos that were exposed for dark woods are darker than bright ground needs.
