@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output_folder.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "nadir/core/error.hpp"
-#include "nadir/io/file_names.hpp"
+#include "nadir/io/atomic_file.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -30,13 +27,6 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
 /// Only what nadir wrote is replaced: `-o .` must never cost a user their files.
 bool written_by_nadir(const fs::path& folder) {
   return fs::exists(folder / "manifest.json") || fs::exists(folder / "sequence.yaml");
-}
-
-void flush_to_disk(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
-  fsync(file);
-  close(file);
 }
 
 }  // namespace
@@ -71,38 +61,11 @@ OutputFolder::OutputFolder(fs::path target, const CommonOptions& common,
     : target_(std::move(target)) {
   require_writable(target_, common, inputs);
   const fs::path place = resolved(target_);
-  staging_ = place.parent_path() /
-             ("." + short_name(place.filename()) + ".unfinished-" + std::to_string(getpid()));
-  std::error_code error;
-  fs::create_directories(staging_, error);
-  if (error) {
-    throw Error(ErrorKind::kProcessing, "cannot create the output folder: " + error.message(),
-                target_.string(), "check the place and its rights");
-  }
+  create_folder(place.parent_path());
+  remove_abandoned(place);
+  unfinished_.emplace(place);
 }
 
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!staging_.empty()) fs::remove_all(staging_, ignored);
-}
-
-void OutputFolder::commit() {
-  const fs::path place = resolved(target_);
-  const fs::path old = staging_.string() + "-old";
-  std::error_code error;
-  const bool replaces = fs::exists(place);
-  flush_to_disk(staging_);
-  if (replaces) fs::rename(place, old, error);
-  if (!error) fs::rename(staging_, place, error);
-  if (error) {
-    std::error_code ignored;
-    if (replaces && !fs::exists(place)) fs::rename(old, place, ignored);
-    throw Error(ErrorKind::kProcessing, "cannot put the output in place: " + error.message(),
-                target_.string());
-  }
-  staging_.clear();
-  if (replaces) fs::remove_all(old, error);
-  flush_to_disk(place.parent_path());
-}
+void OutputFolder::commit() { unfinished_->become_target(); }
 
 }  // namespace nadir::cli

@@ -2,15 +2,12 @@
 #include "nadir/io/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <system_error>
 
 #include "nadir/core/error.hpp"
-#include "nadir/io/file_names.hpp"
 
 namespace nadir {
 namespace {
@@ -38,29 +35,14 @@ class Descriptor {
   int number_;
 };
 
-/// Unique among the processes and threads that write into one folder; hidden, so that a listing of
-/// the folder does not take it for a result.
-std::filesystem::path temporary_name(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter{0};
-  return target.parent_path() / fmt::format(".{}.{}-{}.tmp{}", short_name(target.stem()),
-                                            ::getpid(), counter++, short_name(target.extension()));
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path target)
-    : target_(std::move(target)), temporary_(temporary_name(target_)) {
-  std::error_code ignored;
-  const std::filesystem::path folder = target_.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-    throw system_write_error(target_, ENOTDIR);
-  }
-}
+    : target_(std::move(target)),
+      folder_(target_),
+      temporary_(folder_.path() / target_.filename()) {}
 
-AtomicFile::~AtomicFile() {
-  std::error_code ignored;  // after `commit` there is nothing left to remove
-  std::filesystem::remove(temporary_, ignored);
-}
+AtomicFile::~AtomicFile() = default;
 
 void AtomicFile::write(std::string_view bytes) {
   constexpr int kReadableByUmask = 0666;
@@ -79,6 +61,7 @@ void AtomicFile::commit() {
   const Descriptor file(::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0 || ::fsync(file.number()) != 0) throw system_write_error(target_, errno);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw system_write_error(target_, errno);
+  folder_.remove();
 }
 
 void write_file(const std::filesystem::path& target, std::string_view bytes) {

@@ -4,15 +4,18 @@
 #include <filesystem>
 #include <string_view>
 
+#include "nadir/io/unfinished_folder.hpp"
+
 namespace nadir {
 
-/// A file that appears under its name only when it is whole: it is written under a temporary name
-/// in the same folder, flushed to disk and renamed. Without `commit` nothing of it stays.
+/// A file that appears under its name only when it is whole: it is written in a hidden folder
+/// beside it (UnfinishedFolder), flushed to disk and renamed. Without `commit` nothing of it stays.
 ///
-/// For libraries that write to a path themselves: the temporary name keeps the extension.
+/// For libraries that write to a path themselves: the temporary file has the name of the target,
+/// and files that they put beside it vanish with the folder.
 class AtomicFile {
  public:
-  /// Throws Error (processing) where the folder of `target` does not exist.
+  /// Throws Error (processing) where the folder of `target` does not exist or cannot be written.
   explicit AtomicFile(std::filesystem::path target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -31,6 +34,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path target_;
+  UnfinishedFolder folder_;
   std::filesystem::path temporary_;
 };
 
