@@ -121,13 +121,13 @@ void Localizer::use_map(const Orthomosaic& map) {
   map_ = std::move(next);
 }
 
-Estimate Localizer::update(const Frame& frame) {
+Estimate Localizer::update(const Frame& frame, const StopToken& stop) {
   if (!filter_.started()) throw Error(ErrorKind::kUsage, "the localizer was not started");
   check(frame, previous_);
 
   Estimate estimate;
   estimate.stamp = frame.stamp;
-  const std::optional<Motion2> motion = motion_since_previous(frame);
+  const std::optional<Motion2> motion = motion_since_previous(frame, stop);
   // A copy, and taken over at the end: a frame that throws on the way has moved no particle.
   ParticleFilter filter = filter_;
   // Drawn anew only now, so that until here particles() showed the weights of the last frame.
@@ -137,7 +137,7 @@ Estimate Localizer::update(const Frame& frame) {
   }
   if (!motion) estimate.status = EstimateStatus::kNoOdometry;
 
-  const std::vector<Look> looks = look(frame, filter.particles().poses);
+  const std::vector<Look> looks = look(frame, filter.particles().poses, stop);
   const bool weighed = weigh(filter, looks);
   if (!weighed) estimate.status = why_not(looks, filter.particles().weights);
 
@@ -162,17 +162,17 @@ Estimate Localizer::update(const Frame& frame) {
   return estimate;
 }
 
-std::vector<Localizer::Look> Localizer::look(const Frame& frame,
-                                             const std::vector<Pose2>& poses) const {
+std::vector<Localizer::Look> Localizer::look(const Frame& frame, const std::vector<Pose2>& poses,
+                                             const StopToken& stop) const {
   const LocalizationOptions& options = options_.localization;
   std::vector<Look> looks;
   if (map_) {
     const Template local = make_template(frame.local, options_.matching);
-    looks.push_back({score_poses(*map_, local, poses), options.temper});
+    looks.push_back({score_poses(*map_, local, poses, stop), options.temper});
   }
   if (surface_ && frame.elevation) {
     const Template local = make_template(*frame.elevation, options_.matching);
-    looks.push_back({score_poses(*surface_, local, poses), options.height_temper});
+    looks.push_back({score_poses(*surface_, local, poses, stop), options.height_temper});
   }
   return looks;
 }
@@ -200,12 +200,13 @@ EstimateStatus Localizer::why_not(const std::vector<Look>& looks,
   return EstimateStatus::kNoTexture;
 }
 
-std::optional<Motion2> Localizer::motion_since_previous(const Frame& frame) const {
+std::optional<Motion2> Localizer::motion_since_previous(const Frame& frame,
+                                                        const StopToken& stop) const {
   if (!previous_) return Motion2{};
   if (frame.odom_from_robot && previous_->odom_from_robot) {
     return previous_->odom_from_robot->inverse() * *frame.odom_from_robot;
   }
-  return register_local_maps(previous_->local, frame.local, options_.registration);
+  return register_local_maps(previous_->local, frame.local, options_.registration, stop);
 }
 
 }  // namespace nadir

@@ -8,6 +8,7 @@
 
 #include "nadir/core/elevation_map.hpp"
 #include "nadir/core/orthomosaic.hpp"
+#include "nadir/core/stop.hpp"
 #include "nadir/localization/particle_filter.hpp"
 #include "nadir/map_matching/matching.hpp"
 #include "nadir/map_matching/odometry.hpp"
@@ -71,9 +72,9 @@ class Localizer {
 
   /// Takes one frame; frames come in the order of their stamps. Throws Error (input) for a
   /// non-finite odometry, a stamp that does not increase, or a local map that make_template()
-  /// refuses; Error (usage) before start_near(). Nothing has changed where it throws: the frame,
-  /// put right, may be given again.
-  Estimate update(const Frame& frame);
+  /// refuses; Error (usage) before start_near(); Stopped. Nothing has changed where it throws: the
+  /// frame, put right, may be given again.
+  Estimate update(const Frame& frame, const StopToken& stop = {});
 
   /// The particles after the last update, with their weights.
   const ParticleSet& particles() const { return filter_.particles(); }
@@ -84,13 +85,14 @@ class Localizer {
     std::vector<PoseScore> scores;  ///< of every particle
     double temper = 0.0;
   };
-  std::vector<Look> look(const Frame& frame, const std::vector<Pose2>& poses) const;
+  std::vector<Look> look(const Frame& frame, const std::vector<Pose2>& poses,
+                         const StopToken& stop) const;
   static bool weigh(ParticleFilter& filter, const std::vector<Look>& looks);
   /// Why the frame said nothing: most of the cloud lies where too little can be compared, or what
   /// can be compared has no contrast.
   EstimateStatus why_not(const std::vector<Look>& looks, const std::vector<double>& weights) const;
   /// From the odometry where both frames have it, else by registering the local maps.
-  std::optional<Motion2> motion_since_previous(const Frame& frame) const;
+  std::optional<Motion2> motion_since_previous(const Frame& frame, const StopToken& stop) const;
 
   LocalizerOptions options_;
   GeoReference geo_;                 ///< of the map that it began with

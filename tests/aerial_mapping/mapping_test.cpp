@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
 #include <mutex>
 
@@ -342,6 +343,35 @@ TEST_F(Mapping, TakesUpWhatAStoreKept) {
   EXPECT_LT(static_cast<std::size_t>(store.hits), store.size());
   store.cut_all();
   EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), without));
+}
+
+TEST_F(Mapping, StopsWhereItIsAskedToAndKeepsItsStore) {
+  Flight flight = small_flight();
+  for (MappingPhoto& photo : flight.set.photos) photo.digest = "content of " + photo.name;
+  std::map<std::string, int> asked;  // until the end of each stage
+  std::atomic<int> count{0};
+  const AerialMap whole = map_photos(
+      flight.set, quick_options(), [&](const std::string& stage, double) { asked[stage] = count; },
+      nullptr, StopToken([&] {
+        ++count;
+        return false;
+      }));
+  int before = 0;
+  for (const MappingStage& stage : kMappingStages) {
+    EXPECT_GT(asked[stage.name], before) << stage.name;
+    MemoryStore store;
+    std::atomic<int> left{(before + asked[stage.name]) / 2};
+    EXPECT_THROW(
+        map_photos(flight.set, quick_options(), {}, &store, StopToken([&] { return left-- <= 0; })),
+        Stopped)
+        << stage.name;
+    before = asked[stage.name];
+    if (stage.name != std::string("seams")) continue;
+    const std::size_t kept = store.size();
+    EXPECT_GT(kept, 6U);
+    EXPECT_TRUE(same(map_photos(flight.set, quick_options(), {}, &store), whole));
+    EXPECT_EQ(static_cast<std::size_t>(store.hits), kept);
+  }
 }
 
 TEST_F(Mapping, RefusesMorePhotosThanAMapCanName) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "map_matching/random_maps.hpp"
@@ -165,6 +166,29 @@ TEST(Match, RefusesScoresThatNoMemoryHolds) {
   const SearchRegion region{.centre = Point2<frames::Map>{12.0, 9.0}, .half_size_m = 9e3};
   test::expect_error(ErrorKind::kUsage, {"1 headings", "GB of memory", "smaller window"},
                      [&] { match(map, local, region); });
+}
+
+TEST(Match, StopsWhereItIsAskedTo) {
+  const Texture texture(9);
+  MatchingOptions options;
+  for (const Search search : {Search::kFull, Search::kCoarseToFine}) {
+    options.search = search;
+    const MapIndex map(texture_map(texture), options);
+    const Template local = make_template(local_map(texture, {12.0, 9.0, 0.0}), options);
+    const SearchRegion region{.yaw_half_range_rad = kPi};
+    std::atomic<int> asked{0};
+    const MatchResult whole = match(map, local, region, StopToken([&] {
+                                      ++asked;
+                                      return false;
+                                    }));
+    EXPECT_FALSE(whole.candidates.empty());
+    EXPECT_GT(asked, 20);
+    for (const int after : {0, asked / 4, asked / 2, asked - 8}) {
+      std::atomic<int> left{after};
+      EXPECT_THROW(match(map, local, region, StopToken([&] { return left-- <= 0; })), Stopped)
+          << after << " of " << asked;
+    }
+  }
 }
 
 TEST(Match, TakesATemplateLargerThanTheMap) {

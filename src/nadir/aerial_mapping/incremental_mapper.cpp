@@ -34,18 +34,20 @@ class IncrementalMapper::State {
     quick_.gps_neighbours = kNeighbours;
   }
 
-  MapUpdate add(const MappingPhoto& photo);
-  AerialMap finish(const MappingProgress& progress) { return pipeline_.run(photos, progress); }
+  MapUpdate add(const MappingPhoto& photo, const StopToken& stop);
+  AerialMap finish(const MappingProgress& progress, const StopToken& stop) {
+    return pipeline_.run(photos, progress, stop);
+  }
   const AerialMap& map() const { return map_.map(); }
 
   PhotoSet photos;
 
  private:
 #ifdef NADIR_HAS_SFM
-  void solve(const PhotoSet& set);
+  void solve(const PhotoSet& set, const StopToken& stop);
   void remember(const PhotoSet& set, const aerial::Reconstruction& found);
   aerial::Block block(const PhotoSet& set) const;
-  std::set<MapTile> draw(const PhotoSet& set, const std::string& fresh);
+  std::set<MapTile> draw(const PhotoSet& set, const std::string& fresh, const StopToken& stop);
 
   aerial::KnownPoses known_;
   std::vector<Eigen::Vector3d> points_;
@@ -76,19 +78,19 @@ void IncrementalMapper::State::remember(const PhotoSet& set, const aerial::Recon
                   found.scale_source == ScaleSource::kControlPoints;
 }
 
-void IncrementalMapper::State::solve(const PhotoSet& set) {
+void IncrementalMapper::State::solve(const PhotoSet& set, const StopToken& stop) {
   aerial::PhotoGraph& graph = pipeline_.graph();
-  graph.detect(set, {});
+  graph.detect(set, {}, stop);
   const aerial::PhotoPairs pairs = aerial::choose_pairs(set.photos, quick_.gps_neighbours);
-  graph.match(set, pairs, {});
+  graph.match(set, pairs, {}, stop);
   const auto verified = graph.verified(set, pairs);
   const auto features = graph.features(set);
   const std::size_t count = set.photos.size();
   everything_moved_ = !by_positions_ || count <= kAlwaysWhole || count % kWholeEvery == 0;
   try {
     remember(set, everything_moved_
-                      ? aerial::reconstruct(set, features, verified, quick_)
-                      : aerial::reconstruct_next(set, features, verified, quick_, known_));
+                      ? aerial::reconstruct(set, features, verified, quick_, stop)
+                      : aerial::reconstruct_next(set, features, verified, quick_, known_, stop));
   } catch (const Error& error) {
     // Too few photos join as yet: they stay provisional.
     if (error.kind() != ErrorKind::kNoResult) throw;
@@ -132,7 +134,8 @@ aerial::Block IncrementalMapper::State::block(const PhotoSet& set) const {
   return block;
 }
 
-std::set<MapTile> IncrementalMapper::State::draw(const PhotoSet& set, const std::string& fresh) {
+std::set<MapTile> IncrementalMapper::State::draw(const PhotoSet& set, const std::string& fresh,
+                                                 const StopToken& stop) {
   aerial::Block all = block(set);
   aerial::Block part = all;
   if (!everything_moved_) {
@@ -154,18 +157,18 @@ std::set<MapTile> IncrementalMapper::State::draw(const PhotoSet& set, const std:
     const aerial::Extent extent = aerial::extent_of(footprint, quick_);
     AerialMap piece;
     aerial::make_orthomosaic(set, part, aerial::ground_of(part, extent, quick_), extent, quick_, {},
-                             piece);
+                             stop, piece);
     return map_.put(piece, anchor_, false);
   }
   if (part.views.empty()) return {};
   const aerial::Extent extent = aerial::extent_of(part, quick_);
   const aerial::Ground ground = aerial::ground_of(part, extent, quick_);
   AerialMap whole;
-  aerial::make_orthomosaic(set, part, ground, extent, quick_, {}, whole);
+  aerial::make_orthomosaic(set, part, ground, extent, quick_, {}, stop, whole);
   return map_.put(whole, anchor_, true);
 }
 
-MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo) {
+MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo, const StopToken& stop) {
   photos.photos.push_back(photo);
   if (photos.photos.size() == 1 && photo.prior.position)
     // Whole multiples of 100 m, as for a block (pipeline.cpp).
@@ -178,8 +181,8 @@ MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo) {
     throw;
   }
   const PhotoSet& set = local.set;
-  solve(set);
-  const std::set<MapTile> changed = draw(set, photo.name);
+  solve(set, stop);
+  const std::set<MapTile> changed = draw(set, photo.name, stop);
   AerialMap poses;
   const aerial::Block now = block(set);
   for (const aerial::View& view : now.views) {
@@ -200,7 +203,7 @@ MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo) {
 
 #else
 
-MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo) {
+MapUpdate IncrementalMapper::State::add(const MappingPhoto& photo, const StopToken& /*stop*/) {
   photos.photos.push_back(photo);
   MapUpdate update;
   update.version = ++version_;
@@ -223,12 +226,14 @@ std::size_t IncrementalMapper::add_camera(const CameraPrior& camera) {
   return cameras.size() - 1;
 }
 
-MapUpdate IncrementalMapper::add(const MappingPhoto& photo) { return state_->add(photo); }
+MapUpdate IncrementalMapper::add(const MappingPhoto& photo, const StopToken& stop) {
+  return state_->add(photo, stop);
+}
 
 const AerialMap& IncrementalMapper::current() const { return state_->map(); }
 
-AerialMap IncrementalMapper::finish(const MappingProgress& progress) {
-  return state_->finish(progress);
+AerialMap IncrementalMapper::finish(const MappingProgress& progress, const StopToken& stop) {
+  return state_->finish(progress, stop);
 }
 
 }  // namespace nadir

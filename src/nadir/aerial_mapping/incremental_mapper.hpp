@@ -45,14 +45,15 @@ class IncrementalMapper {
   /// Index of the camera, which is added where it is not known yet.
   std::size_t add_camera(const CameraPrior& camera);
 
-  MapUpdate add(const MappingPhoto& photo);
+  /// Throws Stopped: the photo is among the others then, but not in the map before the next one.
+  MapUpdate add(const MappingPhoto& photo, const StopToken& stop = {});
 
   /// The map as it stands: feathered, quickly made, with poses and views but without report and
   /// sources. Empty before two photos join or one has position, attitude and height.
   const AerialMap& current() const;
 
-  /// All photos adjusted together, seams and blending as in batch mode.
-  AerialMap finish(const MappingProgress& progress = {});
+  /// All photos adjusted together, seams and blending as in batch mode. Throws Stopped.
+  AerialMap finish(const MappingProgress& progress = {}, const StopToken& stop = {});
 
  private:
   class State;

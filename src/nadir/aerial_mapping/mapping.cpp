@@ -20,9 +20,9 @@ bool can_solve_poses() {
 }
 
 AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
-                     const MappingProgress& progress, MappingStore* store) {
+                     const MappingProgress& progress, MappingStore* store, const StopToken& stop) {
   aerial::Pipeline pipeline(options, store);
-  return pipeline.run(photos, progress);
+  return pipeline.run(photos, progress, stop);
 }
 
 }  // namespace nadir

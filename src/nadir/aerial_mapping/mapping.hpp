@@ -9,11 +9,12 @@
 #include "nadir/aerial_mapping/mapping_store.hpp"
 #include "nadir/aerial_mapping/options.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir {
 
 /// Called as the work goes on: the name of the stage and its finished share, 0 .. 1. Comes from
-/// one thread at a time. May throw to stop the work.
+/// one thread at a time.
 using MappingProgress = std::function<void(const std::string& stage, double share)>;
 
 /// Names of the stages, in order, with their usual share of the whole time.
@@ -42,11 +43,15 @@ inline constexpr std::array<MappingStage, 6> kMappingStages{{{"features", 0.30},
 /// With a store, features and matches of photos that have a digest are kept in it and taken from
 /// it; the map is the same.
 ///
+/// `stop` is asked for all the time but within the features of one photo, the solution of one
+/// system of equations and the seam of two photos, which take seconds where photos are large.
+///
 /// Throws Error (usage) for a set that contradicts itself (repeated names, a camera that is not
 /// there, a size beyond max_megapixels), Error (input) for pixels of another size than the camera's
 /// and Error (no result) where fewer than two photos join.
 AerialMap map_photos(const PhotoSet& photos, const AerialMappingOptions& options,
-                     const MappingProgress& progress = {}, MappingStore* store = nullptr);
+                     const MappingProgress& progress = {}, MappingStore* store = nullptr,
+                     const StopToken& stop = {});
 
 /// Whether this build finds poses by itself (NADIR_WITH_SFM): features, matching, adjustment.
 bool can_solve_poses();

@@ -7,7 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <system_error>
+#include <thread>
 
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
@@ -18,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
+
+constexpr std::chrono::milliseconds kLook{20};  // at whether a program has ended
 
 /// Its window library must not look for a screen.
 Arguments environment() {
@@ -36,7 +41,32 @@ std::vector<char*> pointers(Arguments& words) {
   return result;
 }
 
-void run(Arguments arguments, const fs::path& log) {
+/// Ends a program that is no longer wanted, and waits for its end.
+void end(pid_t process) {
+  constexpr auto kPatience = std::chrono::milliseconds(500);
+  kill(process, SIGTERM);
+  const auto due = std::chrono::steady_clock::now() + kPatience;
+  while (waitpid(process, nullptr, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > due) kill(process, SIGKILL);
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+/// What waitpid says of a program when it has ended. Throws Stopped, with the program ended.
+int status_of(pid_t process, const StopToken& stop) {
+  int status = 0;
+  while (true) {
+    const pid_t ended = waitpid(process, &status, WNOHANG);
+    if (ended == process || (ended < 0 && errno != EINTR)) return status;
+    if (stop.stop_requested()) {
+      end(process);
+      throw Stopped{};
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void run(Arguments arguments, const fs::path& log, const StopToken& stop) {
   Arguments variables = environment();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -52,23 +82,21 @@ void run(Arguments arguments, const fs::path& log) {
         ErrorKind::kUsage, "colmap cannot be started: " + std::generic_category().message(failure),
         "--sfm colmap", "install COLMAP, or leave --sfm away: nadir finds the poses itself");
   }
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = status_of(process, stop);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw Error(ErrorKind::kProcessing, "colmap " + arguments.at(1) + " failed", log.string(),
               "its log says why");
 }
 
 /// The model with the most photos, in text; COLMAP numbers its models from 0.
-fs::path largest_model(const fs::path& sparse, const fs::path& log) {
+fs::path largest_model(const fs::path& sparse, const fs::path& log, const StopToken& stop) {
   fs::path best;
   std::uintmax_t size = 0;
   for (int number = 0; is_folder(sparse / std::to_string(number)); ++number) {
     const fs::path model = sparse / std::to_string(number);
     run({"colmap", "model_converter", "--input_path", model.string(), "--output_path",
          model.string(), "--output_type", "TXT"},
-        log);
+        log, stop);
     std::error_code missing;
     const std::uintmax_t own = fs::file_size(model / "images.txt", missing);
     if (!missing && own > size) {
@@ -82,8 +110,8 @@ fs::path largest_model(const fs::path& sparse, const fs::path& log) {
 }  // namespace
 
 ImportedPoses run_colmap(const fs::path& photos, const std::vector<std::string>& names,
-                         const fs::path& work,
-                         const std::function<void(const std::string&)>& step) {
+                         const fs::path& work, const std::function<void(const std::string&)>& step,
+                         const StopToken& stop) {
   const fs::path log = work / "colmap.log";
   const std::string database = (work / "database.db").string();
   const std::string images = fs::absolute(photos).string();
@@ -106,9 +134,9 @@ ImportedPoses run_colmap(const fs::path& photos, const std::vector<std::string>&
        (work / "sparse").string()}};
   for (const Arguments& program : programs) {
     if (step) step("colmap " + program.at(1));
-    run(program, log);
+    run(program, log, stop);
   }
-  const fs::path model = largest_model(work / "sparse", log);
+  const fs::path model = largest_model(work / "sparse", log, stop);
   if (model.empty()) {
     throw Error(ErrorKind::kNoResult, "colmap found no model", log.string(),
                 "the photos must overlap and show texture");

@@ -70,7 +70,7 @@ Eigen::Vector3d vertex(const std::vector<PoseScore>& scores, int axes) {
 }  // namespace
 
 MatchCandidate climb(const MapIndex& map, const Template& local, const MatchCandidate& candidate,
-                     bool turn) {
+                     bool turn, const StopToken& stop) {
   const int axes = turn ? 3 : 2;
   const std::vector<Eigen::Vector3d> offsets = stencil(axes);
   const Eigen::Vector3d unit = unit_steps(local.channel);
@@ -84,7 +84,7 @@ MatchCandidate climb(const MapIndex& map, const Template& local, const MatchCand
       poses.push_back(moved(centre, step_px * offset.cwiseProduct(unit)));
     }
     const std::vector<PoseScore> scores =
-        backend_of(map.options()).score_poses(map, local, poses);  // exact
+        backend_of(map.options()).score_poses(map, local, poses, stop);  // exact
 
     for (std::size_t k = 0; k < scores.size(); ++k) {
       if (scores[k].score > best.score) {

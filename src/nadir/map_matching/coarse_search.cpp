@@ -53,7 +53,7 @@ struct Grid {
 /// The poses of the grids around `places` with their exact scores, grid after grid.
 std::vector<MatchCandidate> score_around(const MapIndex& map, const Template& local,
                                          const std::vector<MatchCandidate>& places,
-                                         const Grid& grid) {
+                                         const Grid& grid, const StopToken& stop) {
   std::vector<Pose2> poses;
   for (const MatchCandidate& place : places) {
     for (int k = -grid.headings; k <= grid.headings; ++k) {
@@ -66,7 +66,8 @@ std::vector<MatchCandidate> score_around(const MapIndex& map, const Template& lo
       }
     }
   }
-  const std::vector<PoseScore> scores = backend_of(map.options()).score_poses(map, local, poses);
+  const std::vector<PoseScore> scores =
+      backend_of(map.options()).score_poses(map, local, poses, stop);
   std::vector<MatchCandidate> scored;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     scored.push_back({poses[i], scores[i].score, scores[i].valid_weight});
@@ -76,9 +77,9 @@ std::vector<MatchCandidate> score_around(const MapIndex& map, const Template& lo
 
 /// Every place moved to the best exact score of the grid around it; places without any are dropped.
 std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& local,
-                                        const std::vector<MatchCandidate>& places,
-                                        const Grid& grid) {
-  const std::vector<MatchCandidate> scored = score_around(map, local, places, grid);
+                                        const std::vector<MatchCandidate>& places, const Grid& grid,
+                                        const StopToken& stop) {
+  const std::vector<MatchCandidate> scored = score_around(map, local, places, grid, stop);
   const std::size_t per_place = places.empty() ? 1 : scored.size() / places.size();
   std::vector<MatchCandidate> best;
   for (std::size_t begin = 0; begin < scored.size(); begin += per_place) {
@@ -94,14 +95,15 @@ std::vector<MatchCandidate> best_around(const MapIndex& map, const Template& loc
 /// The best `count` of `places` after a grid of full resolution around each, climbed.
 std::vector<MatchCandidate> climbed(const MapIndex& map, const Template& local,
                                     std::vector<MatchCandidate> places, std::size_t count,
-                                    double yaw_step) {
+                                    double yaw_step, const StopToken& stop) {
   const double resolution = map.channel().geo.resolution;
   const bool turns = yaw_step > 0.0;
   places = best_around(
       map, local, places,
-      {.positions = 2, .step = resolution, .headings = turns ? 2 : 0, .yaw_step = yaw_step / 6.0});
+      {.positions = 2, .step = resolution, .headings = turns ? 2 : 0, .yaw_step = yaw_step / 6.0},
+      stop);
   places = best_places(std::move(places), count, 2.0 * resolution, 0.2 * yaw_step);
-  for (MatchCandidate& place : places) place = climb(map, local, place, turns);
+  for (MatchCandidate& place : places) place = climb(map, local, place, turns, stop);
   return places;
 }
 
@@ -129,7 +131,7 @@ double coarse_yaw_step(const ChannelImage& local, double resolution) {
 }
 
 std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& local,
-                                          const ScoreVolume& volume) {
+                                          const ScoreVolume& volume, const StopToken& stop) {
   const MapIndex& half_map = map.coarser();
   const Template half{halved(local.channel), local.valid_share};
   const double resolution = map.channel().geo.resolution;
@@ -143,11 +145,12 @@ std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& l
       best_places(find_peaks(volume, many), kCoarsePlaces, 2.0 * 4.0 * resolution, 2.5 * yaw_step);
   places = best_around(
       half_map, half, places,
-      {.positions = 2, .step = 2.0 * resolution, .headings = turns, .yaw_step = yaw_step / 3.0});
+      {.positions = 2, .step = 2.0 * resolution, .headings = turns, .yaw_step = yaw_step / 3.0},
+      stop);
   const auto fine = static_cast<std::size_t>(std::max(kFinePlaces, map.options().candidates));
   places = best_places(std::move(places), fine, 3.0 * resolution, 0.5 * yaw_step);
   const auto most = static_cast<std::size_t>(std::max(kClimbedPlaces, map.options().candidates));
-  places = climbed(map, local, std::move(places), most, yaw_step);
+  places = climbed(map, local, std::move(places), most, yaw_step, stop);
 
   const double separation = map.options().peak_separation_m;
   const Grid ridge{.positions = kRidgeReach,
@@ -155,10 +158,10 @@ std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& l
                    .headings = 3 * turns,
                    .yaw_step = yaw_step / 3.0};
   for (const MatchCandidate& top : best_places(places, kRidges, separation, kPi)) {
-    std::vector<MatchCandidate> around = score_around(half_map, half, {top}, ridge);
+    std::vector<MatchCandidate> around = score_around(half_map, half, {top}, ridge, stop);
     std::erase_if(around, [](const MatchCandidate& pose) { return std::isnan(pose.score); });
     around = best_places(std::move(around), kRidgePlaces, 4.0 * resolution, 0.5 * yaw_step);
-    around = climbed(map, local, std::move(around), kClimbedRidgePlaces, yaw_step);
+    around = climbed(map, local, std::move(around), kClimbedRidgePlaces, yaw_step, stop);
     places.insert(places.end(), around.begin(), around.end());
   }
   return best_places(std::move(places), static_cast<std::size_t>(map.options().candidates),

@@ -12,7 +12,7 @@ ChannelImage halved(const ChannelImage& channel);
 /// `quarter`; the best places are scored around at half the resolution, the best of those at
 /// full resolution, and climbed. Best first, separated as the options say.
 std::vector<MatchCandidate> refine_coarse(const MapIndex& map, const Template& local,
-                                          const ScoreVolume& volume);
+                                          const ScoreVolume& volume, const StopToken& stop);
 
 /// Step between headings at which the edge of a template moves by about one pixel of a quarter of
 /// the resolution: 3 degrees for 18 m.

@@ -95,7 +95,7 @@ Template as_template(ChannelImage channel) {
 
 /// Every position of the region at every heading.
 ScoreVolume score_volume(const MapIndex& map, const Template& local, const SearchRegion& region,
-                         double step) {
+                         double step, const StopToken& stop) {
   const PixelWindow window = pixel_window(map.channel(), region);
   const GeoReference& geo = map.channel().geo;
   ScoreVolume volume;
@@ -106,7 +106,9 @@ ScoreVolume score_volume(const MapIndex& map, const Template& local, const Searc
   check_volume(window, volume.yaws.size());
   const std::vector<RotatedTemplate> templates =
       rotate_templates(local.channel, volume.yaws, geo.resolution, pixel_role(map.options()));
-  for (ScoreSurface& surface : backend_of(map.options()).score_surfaces(map, templates, window)) {
+  stop.check();
+  for (ScoreSurface& surface :
+       backend_of(map.options()).score_surfaces(map, templates, window, stop)) {
     volume.score.push_back(std::move(surface.score));
     volume.valid_weight.push_back(std::move(surface.valid_weight));
   }
@@ -215,7 +217,8 @@ Template make_template(const ElevationMap& local, const MatchingOptions& options
   return as_template(make_height_channel(local, options, "the local heights"));
 }
 
-MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region) {
+MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region,
+                  const StopToken& stop) {
   const double step = region.yaw_step_rad.value_or(radians(map.options().yaw_step_deg));
   check(region, step);
   MatchResult result;
@@ -224,13 +227,14 @@ MatchResult match(const MapIndex& map, const Template& local, const SearchRegion
     const Template coarse{halved(halved(local.channel)), local.valid_share};
     const double coarse_step =
         std::max(step, coarse_yaw_step(local.channel, map.channel().geo.resolution));
-    result.volume = score_volume(quarter, coarse, region, coarse_step);
-    result.candidates = refine_coarse(map, local, result.volume);
+    result.volume = score_volume(quarter, coarse, region, coarse_step, stop);
+    result.candidates = refine_coarse(map, local, result.volume, stop);
   } else {
-    result.volume = score_volume(map, local, region, step);
+    result.volume = score_volume(map, local, region, step, stop);
+    stop.check();
     result.candidates = find_peaks(result.volume, map.options());
     for (MatchCandidate& candidate : result.candidates) {
-      candidate = climb(map, local, candidate, result.volume.yaws.size() > 1);
+      candidate = climb(map, local, candidate, result.volume.yaws.size() > 1, stop);
     }
     std::stable_sort(
         result.candidates.begin(), result.candidates.end(),
@@ -247,11 +251,11 @@ MatchResult match(const MapIndex& map, const Template& local, const SearchRegion
 }
 
 std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                   std::span<const Pose2> map_from_robot) {
+                                   std::span<const Pose2> map_from_robot, const StopToken& stop) {
   if (takes_surfaces(map, local, map_from_robot)) {
-    return score_by_surfaces(map, local, map_from_robot);
+    return score_by_surfaces(map, local, map_from_robot, stop);
   }
-  return backend_of(map.options()).score_poses(map, local, map_from_robot);
+  return backend_of(map.options()).score_poses(map, local, map_from_robot, stop);
 }
 
 }  // namespace nadir

@@ -12,6 +12,7 @@
 #include "nadir/core/frames.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/core/score_volume.hpp"
+#include "nadir/core/stop.hpp"
 #include "nadir/map_matching/options.hpp"
 #include "nadir/map_matching/quads.hpp"
 
@@ -109,9 +110,10 @@ struct MatchResult {
 
 /// Scores every robot position of the region at every heading, or, for a large region, at a quarter
 /// of the resolution and then around the best places (MatchingOptions::search): the volume is then
-/// the coarse one. Throws Error (usage) for a region that is not finite or holds more scores than
-/// memory does (16 GB).
-MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region);
+/// the coarse one. Throws Stopped, and Error (usage) for a region that is not finite or holds more
+/// scores than memory does (16 GB).
+MatchResult match(const MapIndex& map, const Template& local, const SearchRegion& region,
+                  const StopToken& stop = {});
 
 /// A score of one pose; NaN where it is undefined.
 struct PoseScore {
@@ -119,8 +121,9 @@ struct PoseScore {
   double valid_weight = 0.0;
 };
 
-/// Scores given poses as MatchingOptions::pose_scoring says.
+/// Scores given poses as MatchingOptions::pose_scoring says. Throws Stopped.
 std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                   std::span<const Pose2> map_from_robot);
+                                   std::span<const Pose2> map_from_robot,
+                                   const StopToken& stop = {});
 
 }  // namespace nadir

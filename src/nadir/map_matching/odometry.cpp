@@ -20,13 +20,13 @@ bool has_valid_pixel(const Orthomosaic& image) {
 /// The best motion of at most `reach` metres along each axis, unless it lies on the edge of the
 /// search, where it is no maximum, or is not believed.
 std::optional<Motion2> register_within(const MapIndex& map, const Template& local, double reach,
-                                       const RegistrationOptions& options) {
+                                       const RegistrationOptions& options, const StopToken& stop) {
   SearchRegion region;
   region.centre = Point2<frames::Map>{0.0, 0.0};  // the earlier robot frame serves as the map
   region.half_size_m = reach;
   region.yaw_half_range_rad = radians(options.max_turn_deg);
   region.yaw_step_rad = radians(options.turn_step_deg);
-  const MatchResult result = match(map, local, region);
+  const MatchResult result = match(map, local, region, stop);
   if (result.candidates.empty()) return std::nullopt;
   const MatchCandidate& best = result.candidates.front();
   const Pose2& motion = best.map_from_robot;
@@ -55,7 +55,8 @@ void declare(OptionTable& table, RegistrationOptions& options) {
 }
 
 std::optional<Motion2> register_local_maps(const Orthomosaic& earlier, const Orthomosaic& later,
-                                           const RegistrationOptions& options) {
+                                           const RegistrationOptions& options,
+                                           const StopToken& stop) {
   MatchingOptions matching;
   matching.score = Score::kZncc;
   matching.channel = Channel::kGrey;
@@ -70,7 +71,7 @@ std::optional<Motion2> register_local_maps(const Orthomosaic& earlier, const Ort
   const double farthest =
       0.5 * std::max(earlier.width(), earlier.height()) * earlier.geo.resolution;
   for (double reach = options.max_step_m;; reach *= 2.0) {
-    const auto motion = register_within(map, local, reach, options);
+    const auto motion = register_within(map, local, reach, options, stop);
     if (motion || reach >= farthest) return motion;
   }
 }

@@ -20,8 +20,9 @@ struct RegistrationOptions {
 void declare(OptionTable& table, RegistrationOptions& options);
 
 /// The robot's motion between two consecutive local maps, found by matching the later on the
-/// earlier: nothing where they do not overlap or do not look alike.
+/// earlier: nothing where they do not overlap or do not look alike. Throws Stopped.
 std::optional<Motion2> register_local_maps(const Orthomosaic& earlier, const Orthomosaic& later,
-                                           const RegistrationOptions& options);
+                                           const RegistrationOptions& options,
+                                           const StopToken& stop = {});
 
 }  // namespace nadir

@@ -16,7 +16,7 @@ std::vector<MatchCandidate> find_peaks(const ScoreVolume& volume, const Matching
 /// quadratic through the scores around it. The heading stays where `turn` is off. Returns the
 /// candidate itself where no better pose is found.
 MatchCandidate climb(const MapIndex& map, const Template& local, const MatchCandidate& candidate,
-                     bool turn);
+                     bool turn, const StopToken& stop);
 
 /// See MatchResult::peak_ratio.
 double peak_ratio(const ScoreVolume& volume, const std::vector<MatchCandidate>& candidates);

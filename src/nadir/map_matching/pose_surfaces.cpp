@@ -107,7 +107,8 @@ double exact_cost(const MapIndex& map, const Template& local, std::size_t poses)
 /// Score surfaces at evenly spaced headings.
 class PoseSurfaces {
  public:
-  PoseSurfaces(const MapIndex& map, const Template& local, const Cover& cover)
+  PoseSurfaces(const MapIndex& map, const Template& local, const Cover& cover,
+               const StopToken& stop)
       : map_(map), cover_(cover) {
     std::vector<double> yaws;
     for (int k = 0; k < static_cast<int>(cover.headings); ++k) {
@@ -115,7 +116,7 @@ class PoseSurfaces {
     }
     const std::vector<RotatedTemplate> templates = rotate_templates(
         local.channel, yaws, map.channel().geo.resolution, pixel_role(map.options()));
-    surfaces_ = backend_of(map.options()).score_surfaces(map, templates, cover.window);
+    surfaces_ = backend_of(map.options()).score_surfaces(map, templates, cover.window, stop);
   }
 
   /// Cubic in position, linear in heading. A NaN with a share of at least the smallest says that a
@@ -182,11 +183,11 @@ class PoseSurfaces {
 };
 
 std::vector<PoseScore> score_exactly(const MapIndex& map, const Template& local,
-                                     std::span<const Pose2> all,
-                                     std::span<const std::size_t> which) {
+                                     std::span<const Pose2> all, std::span<const std::size_t> which,
+                                     const StopToken& stop) {
   std::vector<Pose2> poses;
   for (const std::size_t i : which) poses.push_back(all[i]);
-  return backend_of(map.options()).score_poses(map, local, poses);
+  return backend_of(map.options()).score_poses(map, local, poses, stop);
 }
 
 /// Exact scores sample the map between its pixels; surfaces sample the template instead. Either
@@ -194,13 +195,14 @@ std::vector<PoseScore> score_exactly(const MapIndex& map, const Template& local,
 /// Aero-Ground run): least squares over a few poses, with a prior of 1 +- 0.05 against residuals
 /// of 2e-3 for where no pose correlates.
 double exact_over_interpolated(const MapIndex& map, const Template& local,
-                               std::span<const Pose2> poses, std::span<const PoseScore> scores) {
+                               std::span<const Pose2> poses, std::span<const PoseScore> scores,
+                               const StopToken& stop) {
   std::vector<std::size_t> sample;
   const std::size_t stride = std::max<std::size_t>(poses.size() / kScaleSamples, 1);
   for (std::size_t i = 0; i < poses.size() && sample.size() < kScaleSamples; i += stride) {
     if (std::isfinite(scores[i].score)) sample.push_back(i);
   }
-  const std::vector<PoseScore> exact = score_exactly(map, local, poses, sample);
+  const std::vector<PoseScore> exact = score_exactly(map, local, poses, sample, stop);
   constexpr double kPrior = (2e-3 / 0.05) * (2e-3 / 0.05);
   double products = kPrior;
   double squares = kPrior;
@@ -229,8 +231,9 @@ bool takes_surfaces(const MapIndex& map, const Template& local,
 }
 
 std::vector<PoseScore> score_by_surfaces(const MapIndex& map, const Template& local,
-                                         std::span<const Pose2> map_from_robot) {
-  const PoseSurfaces surfaces(map, local, cover(map, local, map_from_robot));
+                                         std::span<const Pose2> map_from_robot,
+                                         const StopToken& stop) {
+  const PoseSurfaces surfaces(map, local, cover(map, local, map_from_robot), stop);
   std::vector<PoseScore> scores;
   std::vector<std::size_t> left_over;
   for (const Pose2& pose : map_from_robot) {
@@ -241,9 +244,9 @@ std::vector<PoseScore> score_by_surfaces(const MapIndex& map, const Template& lo
       left_over.push_back(scores.size() - 1);
     }
   }
-  const double scale = exact_over_interpolated(map, local, map_from_robot, scores);
+  const double scale = exact_over_interpolated(map, local, map_from_robot, scores, stop);
   for (PoseScore& score : scores) score.score *= scale;  // a NaN stays one
-  const std::vector<PoseScore> exact = score_exactly(map, local, map_from_robot, left_over);
+  const std::vector<PoseScore> exact = score_exactly(map, local, map_from_robot, left_over, stop);
   for (std::size_t k = 0; k < left_over.size(); ++k) scores[left_over[k]] = exact[k];
   return scores;
 }

@@ -17,6 +17,7 @@ bool takes_surfaces(const MapIndex& map, const Template& local,
 /// few headings over the window of the poses, brought to the size of exact ones by a factor that a
 /// few exactly scored poses give. Poses beside undefined scores are scored exactly.
 std::vector<PoseScore> score_by_surfaces(const MapIndex& map, const Template& local,
-                                         std::span<const Pose2> map_from_robot);
+                                         std::span<const Pose2> map_from_robot,
+                                         const StopToken& stop);
 
 }  // namespace nadir

@@ -31,7 +31,8 @@ class PreparedMap {
   virtual ~PreparedMap() = default;
 };
 
-/// What an implementation of map matching provides. Every backend is held to `reference`.
+/// What an implementation of map matching provides. Every backend is held to `reference`. Scoring
+/// throws Stopped.
 class MatchingBackend {
  public:
   virtual ~MatchingBackend() = default;
@@ -40,9 +41,11 @@ class MatchingBackend {
   /// One surface per template, all over the same window.
   virtual std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                                    std::span<const RotatedTemplate> templates,
-                                                   const PixelWindow& window) const = 0;
+                                                   const PixelWindow& window,
+                                                   const StopToken& stop = {}) const = 0;
   virtual std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                             std::span<const Pose2> map_from_robot) const = 0;
+                                             std::span<const Pose2> map_from_robot,
+                                             const StopToken& stop = {}) const = 0;
 };
 
 const MatchingBackend& reference_backend();

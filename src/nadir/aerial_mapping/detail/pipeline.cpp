@@ -154,7 +154,8 @@ Pipeline::Pipeline(const AerialMappingOptions& options, MappingStore* /*store*/)
     : options_(options) {}
 #endif
 
-AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress) {
+AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress,
+                        const StopToken& stop) {
   if (photos.photos.size() < 2)
     throw Error(ErrorKind::kNoResult, "a map needs two photos at least");
   const LocalSet local = localise(photos);
@@ -166,16 +167,18 @@ AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress)
   Stopwatch watch(map.report);
   const bool posed = all_posed(set);
 #ifdef NADIR_HAS_SFM
-  graph_.detect(set, [&](double share) { tell("features", share); });
+  graph_.detect(
+      set, [&](double share) { tell("features", share); }, stop);
   watch.stage("features");
   const PhotoPairs pairs = choose_pairs(set.photos, options_.gps_neighbours);
-  graph_.match(set, pairs, [&](double share) { tell("matching", share); });
+  graph_.match(
+      set, pairs, [&](double share) { tell("matching", share); }, stop);
   watch.stage("matching");
   const auto verified = graph_.verified(set, pairs);
   tell("adjustment", 0.0);
   const Reconstruction found =
-      posed ? reconstruct_posed(set, graph_.features(set), verified, options_)
-            : reconstruct(set, graph_.features(set), verified, options_);
+      posed ? reconstruct_posed(set, graph_.features(set), verified, options_, stop)
+            : reconstruct(set, graph_.features(set), verified, options_, stop);
   tell("adjustment", 1.0);
   watch.stage("adjustment");
   Block block = block_of(found);
@@ -186,18 +189,20 @@ AerialMap Pipeline::run(const PhotoSet& photos, const MappingProgress& progress)
                 "give the photos' poses");
   Block block = given_block(set);
 #endif
-  sweep_for_points(set, block, options_);
+  sweep_for_points(set, block, options_, stop);
   const Extent extent = extent_of(block, options_);
   const Ground ground = ground_of(block, extent, options_);
+  stop.check();
   tell("surface", 1.0);
   watch.stage("surface");
   make_orthomosaic(
       set, block, ground, extent, options_,
-      [&](const std::string& stage, double share) { tell(stage.c_str(), share); }, map);
+      [&](const std::string& stage, double share) { tell(stage.c_str(), share); }, stop, map);
   watch.stage("orthomosaic");
 #ifdef NADIR_HAS_SFM
   fill_report(set, found, verified, options_, map.report);
 #endif
+  stop.check();
   fill_views(set, block, ground, map);
   shift_map(map, local.anchor);
   return map;

@@ -27,7 +27,7 @@ class Pipeline {
  public:
   explicit Pipeline(const AerialMappingOptions& options, MappingStore* store = nullptr);
 
-  AerialMap run(const PhotoSet& photos, const MappingProgress& progress);
+  AerialMap run(const PhotoSet& photos, const MappingProgress& progress, const StopToken& stop);
 
 #ifdef NADIR_HAS_SFM
   PhotoGraph& graph() { return graph_; }

@@ -119,15 +119,26 @@ cv::Mat best_view(const std::vector<ViewCells>& cells, const CellGrid& grid, cv:
 }
 
 #ifdef NADIR_HAS_SFM
+/// Whether any cell is in both masks, which lie at these places of the grid.
+bool masks_meet(const cv::Rect& first, const cv::UMat& first_mask, const cv::Rect& second,
+                const cv::UMat& second_mask) {
+  const cv::Rect common = first & second;
+  if (common.empty()) return false;
+  cv::Mat both;
+  cv::bitwise_and(first_mask.getMat(cv::ACCESS_READ)(common - first.tl()),
+                  second_mask.getMat(cv::ACCESS_READ)(common - second.tl()), both);
+  return cv::countNonZero(both) > 0;
+}
+
 /// Graph cuts between each two neighbouring views, inside the band where either would do.
 void move_seams(const std::vector<ViewCells>& cells, const std::vector<View>& views,
-                const cv::Mat& best_cost, cv::Mat& labels) {
+                const cv::Mat& best_cost, const StopToken& stop, cv::Mat& labels) {
   std::vector<std::size_t> taking_part;
   std::vector<cv::UMat> images;
   std::vector<cv::UMat> masks;
-  std::vector<cv::Point> corners;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     if (cells[k].rect.empty()) continue;
+    stop.check();
     cv::Mat mask(cells[k].rect.size(), CV_8U, cv::Scalar(0));
     for (int row = 0; row < mask.rows; ++row)
       for (int column = 0; column < mask.cols; ++column) {
@@ -142,11 +153,20 @@ void move_seams(const std::vector<ViewCells>& cells, const std::vector<View>& vi
     taking_part.push_back(k);
     images.push_back(colour.getUMat(cv::ACCESS_READ).clone());
     masks.push_back(mask.getUMat(cv::ACCESS_READ).clone());
-    corners.push_back(cells[k].rect.tl());
   }
-  if (taking_part.size() < 2) return;
+  // The finder goes through all pairs too, in this order, and a pair's cut depends on these two
+  // alone; but it cannot be stopped, and cuts pairs whose masks nowhere meet, which changes
+  // nothing.
   cv::detail::GraphCutSeamFinder finder(cv::detail::GraphCutSeamFinderBase::COST_COLOR_GRAD);
-  finder.find(images, corners, masks);
+  for (std::size_t a = 0; a < taking_part.size(); ++a)
+    for (std::size_t b = a + 1; b < taking_part.size(); ++b) {
+      const cv::Rect& first = cells[taking_part[a]].rect;
+      const cv::Rect& second = cells[taking_part[b]].rect;
+      if (!masks_meet(first, masks[a], second, masks[b])) continue;
+      stop.check();
+      std::vector<cv::UMat> pair{masks[a], masks[b]};
+      finder.find({images[a], images[b]}, {first.tl(), second.tl()}, pair);
+    }
   cv::Mat left_cost(labels.size(), CV_32F, cv::Scalar(kUnseen));
   for (std::size_t n = 0; n < taking_part.size(); ++n) {
     const std::size_t k = taking_part[n];
@@ -167,9 +187,11 @@ void move_seams(const std::vector<ViewCells>& cells, const std::vector<View>& vi
 }  // namespace
 
 std::vector<ViewCells> look(const std::vector<View>& views, const Ground& ground,
-                            const CellGrid& grid, const ViewLimits& limits, ViewImages& images) {
+                            const CellGrid& grid, const ViewLimits& limits, ViewImages& images,
+                            const StopToken& stop) {
   std::vector<ViewCells> cells(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t k) {
+    stop.check();
     cells[k] = look_through(views[k], ground, grid, limits, *images.get(k));
   });
   return cells;
@@ -216,14 +238,15 @@ void keep_from_clipping(const std::vector<ViewCells>& cells, const cv::Mat& labe
 }
 
 cv::Mat choose_views(const std::vector<ViewCells>& cells, const std::vector<View>& views,
-                     const CellGrid& grid, bool optimise_seams) {
+                     const CellGrid& grid, bool optimise_seams, const StopToken& stop) {
   cv::Mat best_cost;
   cv::Mat labels = best_view(cells, grid, best_cost);
 #ifdef NADIR_HAS_SFM
-  if (optimise_seams) move_seams(cells, views, best_cost, labels);
+  if (optimise_seams) move_seams(cells, views, best_cost, stop, labels);
 #else
   static_cast<void>(views);
   static_cast<void>(optimise_seams);
+  static_cast<void>(stop);
 #endif
   return labels;
 }

@@ -8,6 +8,7 @@
 #include "nadir/aerial_mapping/ortho/ground.hpp"
 #include "nadir/aerial_mapping/ortho/views.hpp"
 #include "nadir/core/geo_reference.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -27,9 +28,10 @@ struct ViewCells {
   cv::Mat colour;  ///< RGB as the photo has it, a mean over the cell
 };
 
-/// Looks at the grid through every view, in parallel.
+/// Looks at the grid through every view, in parallel. Throws Stopped.
 std::vector<ViewCells> look(const std::vector<View>& views, const Ground& ground,
-                            const CellGrid& grid, const ViewLimits& limits, ViewImages& images);
+                            const CellGrid& grid, const ViewLimits& limits, ViewImages& images,
+                            const StopToken& stop);
 
 /// How many views see each cell, at most 255.
 cv::Mat count_views(const std::vector<ViewCells>& cells, const CellGrid& grid);
@@ -44,8 +46,8 @@ void keep_from_clipping(const std::vector<ViewCells>& cells, const cv::Mat& labe
                         std::vector<View>& views);
 
 /// The view that each cell takes its colour from (16 bit, kNoView = none): the one that sees it
-/// best, with the borders moved to where neighbouring views look alike.
+/// best, with the borders moved to where neighbouring views look alike. Throws Stopped.
 cv::Mat choose_views(const std::vector<ViewCells>& cells, const std::vector<View>& views,
-                     const CellGrid& grid, bool optimise_seams);
+                     const CellGrid& grid, bool optimise_seams, const StopToken& stop);
 
 }  // namespace nadir::aerial

@@ -56,9 +56,10 @@ Eigen::VectorXd solve(const std::vector<Overlap>& overlaps, const Eigen::VectorX
 
 }  // namespace
 
-std::vector<Overlap> overlaps_of(const std::vector<ViewCells>& cells) {
+std::vector<Overlap> overlaps_of(const std::vector<ViewCells>& cells, const StopToken& stop) {
   std::vector<Overlap> overlaps;
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    stop.check();
     for (std::size_t j = i + 1; j < cells.size(); ++j) {
       const cv::Rect common = cells[i].rect & cells[j].rect;
       Overlap overlap;
@@ -87,6 +88,7 @@ std::vector<Overlap> overlaps_of(const std::vector<ViewCells>& cells) {
       }
       overlaps.push_back(overlap);
     }
+  }
   return overlaps;
 }
 

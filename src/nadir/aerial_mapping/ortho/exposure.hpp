@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nadir/aerial_mapping/ortho/cells.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -18,7 +19,8 @@ struct Overlap {
   std::array<double, 3> second_mean{};
 };
 
-std::vector<Overlap> overlaps_of(const std::vector<ViewCells>& cells);
+/// Of every two views that overlap enough. Throws Stopped.
+std::vector<Overlap> overlaps_of(const std::vector<ViewCells>& cells, const StopToken& stop);
 
 /// Gains (red, green, blue) that make the views agree where they overlap: one for luminance, held
 /// by `prior_sigma` around what the exposure says, and a chroma within 5 per cent; equation [10] of

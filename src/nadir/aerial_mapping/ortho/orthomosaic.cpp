@@ -219,7 +219,8 @@ Extent extent_of(const Block& block, const AerialMappingOptions& options) {
   return on_whole_cells(extent, options.resolution_m);
 }
 
-void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options) {
+void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options,
+                      const StopToken& stop) {
   if (options.surface == SurfaceKind::kPlane || block.points.size() < kFewestForSurface) return;
   const ViewLimits limits = limits_of(block, options);
   Extent extent = kNowhere;
@@ -229,7 +230,7 @@ void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOpti
   const Ground ground = ground_of(block, extent, options);
   ViewImages images(set, block.views, kImageBudget);
   const std::vector<Eigen::Vector3d> more =
-      sweep_gaps(block.views, images, ground, limits, options.max_surface_distance_m);
+      sweep_gaps(block.views, images, ground, limits, options.max_surface_distance_m, stop);
   block.points.insert(block.points.end(), more.begin(), more.end());
   block.points = without_outliers(std::move(block.points), block.outlier_tolerance());
 }
@@ -254,7 +255,7 @@ ViewLimits limits_of(const Block& block, const AerialMappingOptions& options) {
 
 void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, const Extent& extent,
                       const AerialMappingOptions& options, const MappingProgress& progress,
-                      AerialMap& map) {
+                      const StopToken& stop, AerialMap& map) {
   check_size(extent, options);
   const CellGrid grid = cell_grid(extent, options.resolution_m);
   for (View& view : block.views) {
@@ -263,14 +264,15 @@ void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, c
     view.shrink = std::max(1.0, kSharpness * options.resolution_m * view.camera.fx / height);
   }
   ViewImages images(set, block.views, kImageBudget);
-  const auto cells = look(block.views, ground, grid, limits_of(block, options), images);
+  const auto cells = look(block.views, ground, grid, limits_of(block, options), images, stop);
   if (progress) progress("seams", 0.6);
   std::vector<std::optional<double>> exposures;
   for (const View& view : block.views) exposures.push_back(set.photos[view.photo].prior.exposure);
-  const auto gains = balance(overlaps_of(cells), exposures, options.gain_prior_sigma);
+  const auto gains = balance(overlaps_of(cells, stop), exposures, options.gain_prior_sigma);
   for (std::size_t k = 0; k < gains.size(); ++k) block.views[k].gain = gains[k];
   const cv::Mat labels =
-      choose_views(cells, block.views, grid, options.blend == BlendKind::kMultiBand);
+      choose_views(cells, block.views, grid, options.blend == BlendKind::kMultiBand, stop);
+  stop.check();
   const cv::Mat count = count_views(cells, grid);
   cv::Mat valid = valid_cells(grid, count, labels, ground, block.views, options);
   close_holes(grid, labels, valid);
@@ -301,6 +303,7 @@ void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, c
   std::mutex mutex;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t k) {
+    stop.check();
     const cv::Mat tile = render(scene, tiles[k]);
     put_tile(tile, used, grid, tiles[k], valid, labels, count, quality, map);
     const std::scoped_lock lock(mutex);

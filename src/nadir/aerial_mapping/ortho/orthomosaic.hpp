@@ -11,6 +11,7 @@
 #include "nadir/aerial_mapping/ortho/ground.hpp"
 #include "nadir/aerial_mapping/ortho/views.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -23,8 +24,9 @@ struct Block {
   double outlier_tolerance() const;
 };
 
-/// Adds points where features gave none and the photos agree on a height.
-void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options);
+/// Adds points where features gave none and the photos agree on a height. Throws Stopped.
+void sweep_for_points(const PhotoSet& set, Block& block, const AerialMappingOptions& options,
+                      const StopToken& stop);
 
 /// The area that the points reach, or, without any, the photos on a plane.
 Extent extent_of(const Block& block, const AerialMappingOptions& options);
@@ -34,9 +36,9 @@ Ground ground_of(const Block& block, const Extent& extent, const AerialMappingOp
 ViewLimits limits_of(const Block& block, const AerialMappingOptions& options);
 
 /// Fills the rasters of the map, and the gains in the views. Throws Error (usage) where it would
-/// be larger than the options allow.
+/// be larger than the options allow, and Stopped.
 void make_orthomosaic(const PhotoSet& set, Block& block, const Ground& ground, const Extent& extent,
                       const AerialMappingOptions& options, const MappingProgress& progress,
-                      AerialMap& map);
+                      const StopToken& stop, AerialMap& map);
 
 }  // namespace nadir::aerial

@@ -186,13 +186,14 @@ std::optional<double> smoothed(const Raster<float>& found, int column, int row) 
 
 std::vector<Eigen::Vector3d> sweep_gaps(const std::vector<View>& views, ViewImages& images,
                                         const Ground& ground, const ViewLimits& limits,
-                                        double max_distance_m) {
+                                        double max_distance_m, const StopToken& stop) {
   if (views.size() < kFewestViews) return {};
   const double height = median_height(views, ground);
   const double sample = kSample * height;
   const Heights heights = heights_of(ground, height, max_distance_m);
   std::vector<SmallView> small(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t k) {
+    stop.check();
     small[k] = shrunk(views[k], *images.get(k), height, sample);
   });
   const GeoReference& geo = ground.heights.geo;
@@ -202,6 +203,7 @@ std::vector<Eigen::Vector3d> sweep_gaps(const std::vector<View>& views, ViewImag
   if (columns < 1 || rows < 1) return {};
   Raster<float> found(columns, rows, kNone);
   tbb::parallel_for(0, rows, [&](int row) {
+    stop.check();
     for (int column = 0; column < columns; ++column) {
       const double x = geo.west + (column + 0.5) * spacing;
       const double y = geo.north - (row + 0.5) * spacing;

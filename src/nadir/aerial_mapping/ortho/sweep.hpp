@@ -6,6 +6,7 @@
 
 #include "nadir/aerial_mapping/ortho/ground.hpp"
 #include "nadir/aerial_mapping/ortho/views.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -14,6 +15,6 @@ namespace nadir::aerial {
 /// more show the same patch at one height and at no other. Gives these points.
 std::vector<Eigen::Vector3d> sweep_gaps(const std::vector<View>& views, ViewImages& images,
                                         const Ground& ground, const ViewLimits& limits,
-                                        double max_distance_m);
+                                        double max_distance_m, const StopToken& stop);
 
 }  // namespace nadir::aerial

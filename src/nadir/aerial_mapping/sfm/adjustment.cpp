@@ -107,6 +107,18 @@ Blocks blocks_of(const Model& model, const AdjustmentState& state,
   return blocks;
 }
 
+/// Ends a solution between two iterations: what Ceres calls may not throw.
+class StopBetweenIterations : public ceres::IterationCallback {
+ public:
+  explicit StopBetweenIterations(const StopToken& stop) : stop_(stop) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return stop_.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const StopToken& stop_;
+};
+
 /// Builds and solves one problem over the blocks.
 class Adjustment {
  public:
@@ -129,8 +141,10 @@ class Adjustment {
     hold();
   }
 
-  int solve() {
+  int solve(const StopToken& stop) {
     ceres::Solver::Options options;
+    StopBetweenIterations callback(stop);
+    options.callbacks = {&callback};
     options.linear_solver_type =
         model_.poses.size() < kDenseLimit ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
     options.max_num_iterations = plan_.max_iterations;
@@ -146,6 +160,7 @@ class Adjustment {
         options.linear_solver_ordering->AddElementToGroup(point.data(), 0);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
+    stop.check();
     return static_cast<int>(summary.iterations.size());
   }
 
@@ -461,10 +476,12 @@ std::optional<GimbalSigma> gimbal_residuals(const Model& model, const PhotoSet& 
 }
 
 void adjust(Model& model, AdjustmentState& state, const PhotoSet& set,
-            const AerialMappingOptions& options, const AdjustmentPlan& plan) {
+            const AerialMappingOptions& options, const AdjustmentPlan& plan,
+            const StopToken& stop) {
+  stop.check();
   Adjustment adjustment(model, state, set, options, plan);
   if (adjustment.blocks().points.empty()) return;
-  state.iterations += adjustment.solve();
+  state.iterations += adjustment.solve(stop);
   const Blocks& blocks = adjustment.blocks();
   for (std::size_t i = 0; i < model.poses.size(); ++i) {
     if (!model.poses[i].known) continue;

@@ -9,6 +9,7 @@
 #include "nadir/aerial_mapping/options.hpp"
 #include "nadir/aerial_mapping/photo_set.hpp"
 #include "nadir/aerial_mapping/sfm/model.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -56,9 +57,11 @@ std::vector<Eigen::Vector3d> velocities_of(const std::vector<MappingPhoto>& phot
 std::optional<GimbalSigma> gimbal_residuals(const Model& model, const PhotoSet& set, int fewest);
 
 /// Least squares over poses, cameras and points: equations 2 to 7 of docs/aerial-mapping.md. Only
-/// known poses and valid landmarks take part.
+/// known poses and valid landmarks take part. Throws Stopped between two iterations; nothing has
+/// changed then.
 void adjust(Model& model, AdjustmentState& state, const PhotoSet& set,
-            const AerialMappingOptions& options, const AdjustmentPlan& plan);
+            const AerialMappingOptions& options, const AdjustmentPlan& plan,
+            const StopToken& stop = {});
 
 /// Standard deviation of ln f of each camera, from the covariance of the adjustment of a thinned
 /// set of points; 0 where it cannot be had.

@@ -133,11 +133,12 @@ std::vector<int> partners(const Model& model, std::size_t photo, std::size_t oth
 }  // namespace
 
 void rematch(const Model& model, const std::vector<PhotoFeatures>& features, double lowest,
-             double highest, std::vector<VerifiedPair>& pairs) {
+             double highest, std::vector<VerifiedPair>& pairs, const StopToken& stop) {
   std::vector<Bins> bins;
   bins.reserve(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) bins.emplace_back(features[i], model.camera(i));
   tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t n) {
+    stop.check();
     VerifiedPair& pair = pairs[n];
     if (!model.poses[pair.first].known || !model.poses[pair.second].known) return;
     const PhotoFeatures& first = features[pair.first];

@@ -6,6 +6,7 @@
 #include "nadir/aerial_mapping/sfm/features.hpp"
 #include "nadir/aerial_mapping/sfm/matching.hpp"
 #include "nadir/aerial_mapping/sfm/model.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -15,6 +16,6 @@ namespace nadir::aerial {
 /// doubt. Pairs are those of `pairs` whose photos are both known; the inliers are replaced where
 /// more are found.
 void rematch(const Model& model, const std::vector<PhotoFeatures>& features, double lowest,
-             double highest, std::vector<VerifiedPair>& pairs);
+             double highest, std::vector<VerifiedPair>& pairs, const StopToken& stop);
 
 }  // namespace nadir::aerial

@@ -72,7 +72,7 @@ VerifiedPair PhotoGraph::pair_of(const MappingPhoto& first, const MappingPhoto& 
   return pair;
 }
 
-void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
+void PhotoGraph::detect(const PhotoSet& set, const Share& progress, const StopToken& stop) {
   std::vector<std::size_t> wanted;
   std::size_t largest = 1;
   for (std::size_t i = 0; i < set.photos.size(); ++i) {
@@ -85,6 +85,7 @@ void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
   std::vector<Entry> found(wanted.size());
   Counter counter(wanted.size(), progress);
   const auto detect_one = [&](std::size_t k) {
+    stop.check();
     Entry& entry = found[k];
     const MappingPhoto& photo = set.photos[wanted[k]];
     entry.features = features_of(set, wanted[k]);
@@ -99,7 +100,8 @@ void PhotoGraph::detect(const PhotoSet& set, const Share& progress) {
     photos_[set.photos[wanted[k]].name] = std::move(found[k]);
 }
 
-void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress) {
+void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress,
+                       const StopToken& stop) {
   PhotoPairs wanted;
   for (const auto& [a, b] : pairs)
     if (!pairs_.contains({set.photos[a].name, set.photos[b].name})) wanted.emplace_back(a, b);
@@ -107,6 +109,7 @@ void PhotoGraph::match(const PhotoSet& set, const PhotoPairs& pairs, const Share
   std::vector<VerifiedPair> found(wanted.size());
   Counter counter(wanted.size(), progress);
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+    stop.check();
     found[k] = pair_of(set.photos[wanted[k].first], set.photos[wanted[k].second]);
     counter.done();
   });

@@ -13,6 +13,7 @@
 #include "nadir/aerial_mapping/photo_set.hpp"
 #include "nadir/aerial_mapping/sfm/matching.hpp"
 #include "nadir/aerial_mapping/sfm/pairs.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -27,12 +28,13 @@ class PhotoGraph {
   explicit PhotoGraph(const AerialMappingOptions& options, MappingStore* store = nullptr)
       : options_(options), store_(store) {}
 
-  /// Features of the photos that have none yet.
-  void detect(const PhotoSet& set, const Share& progress);
+  /// Features of the photos that have none yet. Throws Stopped.
+  void detect(const PhotoSet& set, const Share& progress, const StopToken& stop);
 
   /// Geometry of the pairs that have none yet. Pairs of photos that no position brought together
-  /// are first tried with their largest features alone. `set` is sorted by name.
-  void match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress);
+  /// are first tried with their largest features alone. `set` is sorted by name. Throws Stopped.
+  void match(const PhotoSet& set, const PhotoPairs& pairs, const Share& progress,
+             const StopToken& stop);
 
   /// Features of the photos of a set, in its order.
   std::vector<PhotoFeatures> features(const PhotoSet& set) const;

@@ -173,7 +173,7 @@ std::optional<double> heading_correction(const Model& model, const std::vector<s
 
 void lay_out(Model& model, const std::vector<std::size_t>& group,
              const std::vector<MappingPhoto>& photos, const std::vector<PhotoFeatures>& features,
-             const std::vector<VerifiedPair>& pairs) {
+             const std::vector<VerifiedPair>& pairs, const StopToken& stop) {
   std::vector<int> slot(photos.size(), -1);
   for (std::size_t k = 0; k < group.size(); ++k) slot[group[k]] = static_cast<int>(k);
   const std::vector<PlanarMatch> matches = planar_matches(model, slot, photos, features, pairs);
@@ -188,6 +188,7 @@ void lay_out(Model& model, const std::vector<std::size_t>& group,
   std::vector<double> robust(matches.size(), 1.0);
   Eigen::VectorXcd layout;
   for (int pass = 0; pass < kReweightings; ++pass) {
+    stop.check();
     layout = solve_layout(matches, robust, group.size(), anchor);
     std::vector<double> residuals;
     for (const PlanarMatch& m : matches) {

@@ -8,6 +8,7 @@
 #include "nadir/aerial_mapping/photo_set.hpp"
 #include "nadir/aerial_mapping/sfm/matching.hpp"
 #include "nadir/aerial_mapping/sfm/model.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -16,7 +17,7 @@ namespace nadir::aerial {
 /// one linear system. The unit of length is arbitrary and the ground is at z = 0.
 void lay_out(Model& model, const std::vector<std::size_t>& group,
              const std::vector<MappingPhoto>& photos, const std::vector<PhotoFeatures>& features,
-             const std::vector<VerifiedPair>& pairs);
+             const std::vector<VerifiedPair>& pairs, const StopToken& stop);
 
 /// How a model of arbitrary unit was brought to the map.
 struct Placement {

@@ -76,8 +76,9 @@ std::vector<Landmark> landmarks_of(const std::vector<PhotoFeatures>& features,
 class Reconstructor {
  public:
   Reconstructor(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
-                const std::vector<VerifiedPair>& pairs, const AerialMappingOptions& options)
-      : set_(set), features_(features), pairs_(pairs), options_(options) {
+                const std::vector<VerifiedPair>& pairs, const AerialMappingOptions& options,
+                const StopToken& stop)
+      : set_(set), features_(features), pairs_(pairs), options_(options), stop_(stop) {
     const double gimbal = options.gimbal_sigma_deg * std::numbers::pi / 180.0;
     plan_.gimbal_sigma = {gimbal, gimbal};
     result_.model = start_model(set, features, pairs, options.min_pair_inliers);
@@ -95,7 +96,7 @@ class Reconstructor {
     std::vector<VerifiedPair> links;
     for (const VerifiedPair& pair : pairs_)
       if (pair.support() >= options_.min_pair_inliers) links.push_back(pair);
-    lay_out(model(), group, set_.photos, features_, links);
+    lay_out(model(), group, set_.photos, features_, links, stop_);
     placement_ = place(model(), group, set_.photos);
     state().ground = placement_.ground;
     choose_gauge(group);
@@ -246,7 +247,7 @@ class Reconstructor {
       plan.hold_cameras = true;
       plan.cell_share = 1;
       plan.max_iterations = 25;
-      adjust(model(), state(), set_, options_, plan);
+      adjust(model(), state(), set_, options_, plan, stop_);
     }
   }
 
@@ -263,6 +264,7 @@ class Reconstructor {
   }
 
   void round(double gate_px, int iterations) {
+    stop_.check();
     triangulate(model(), {gate_px, 1.0, 2});
     update_ground(model(), state());
     AdjustmentPlan plan = plan_;
@@ -271,16 +273,17 @@ class Reconstructor {
     plan.hold_cameras = gate_px > 4.0;
     plan.free_readout = !plan.hold_cameras && is_wide_;
     plan.cell_share = gate_px > 2.0 ? 1 : 2;
-    adjust(model(), state(), set_, options_, plan);
+    adjust(model(), state(), set_, options_, plan, stop_);
   }
 
   void local_round(double gate_px) {
+    stop_.check();
     triangulate(model(), {gate_px, 1.0, 2});
     AdjustmentPlan plan = plan_;
     plan.loss_px = std::max(1.0, 0.5 * gate_px);
     plan.max_iterations = 10;
     plan.cell_share = 1;
-    adjust(model(), state(), set_, options_, plan);
+    adjust(model(), state(), set_, options_, plan, stop_);
   }
 
   /// The photos nearest to a known one.
@@ -300,6 +303,7 @@ class Reconstructor {
   void find_lost(const std::vector<std::size_t>& group) {
     triangulate(model(), {6.0, 1.0, 2});
     for (int pass = 0; pass < 5; ++pass) {
+      stop_.check();
       const std::vector<int> count = observations_of(model());
       std::vector<std::size_t> lost;
       for (const std::size_t i : group)
@@ -329,7 +333,8 @@ class Reconstructor {
     std::vector<VerifiedPair> pairs;
     for (const VerifiedPair& pair : pairs_)
       if (pair.support() >= options_.min_pair_inliers) pairs.push_back(pair);
-    rematch(model(), features_, lowest, highest, pairs);
+    rematch(model(), features_, lowest, highest, pairs, stop_);
+    stop_.check();
     Model dense = model();
     dense.landmarks = landmarks_of(features_, pairs);
     triangulate(dense, {1.5, 2.0, 2});
@@ -363,6 +368,7 @@ class Reconstructor {
     AdjustmentPlan thinned = plan_;
     thinned.free_readout = is_wide_;
     thinned.cell_share = 1;
+    stop_.check();
     result_.focal_sigma = focal_sigmas(model(), state(), set_, options_, thinned);
     if (!levelled_ && !(placement_.position && placement_.scale)) level(model());
     update_ground(model(), state());
@@ -442,6 +448,7 @@ class Reconstructor {
   const std::vector<PhotoFeatures>& features_;
   const std::vector<VerifiedPair>& pairs_;
   AerialMappingOptions options_;
+  const StopToken& stop_;
   Reconstruction result_;
   Placement placement_;
   AdjustmentPlan plan_;
@@ -476,20 +483,21 @@ Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& feature
 
 Reconstruction reconstruct(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                            const std::vector<VerifiedPair>& pairs,
-                           const AerialMappingOptions& options) {
-  return Reconstructor(set, features, pairs, options).from_matches();
+                           const AerialMappingOptions& options, const StopToken& stop) {
+  return Reconstructor(set, features, pairs, options, stop).from_matches();
 }
 
 Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                                  const std::vector<VerifiedPair>& pairs,
-                                 const AerialMappingOptions& options) {
-  return Reconstructor(set, features, pairs, options).from_given_poses();
+                                 const AerialMappingOptions& options, const StopToken& stop) {
+  return Reconstructor(set, features, pairs, options, stop).from_given_poses();
 }
 
 Reconstruction reconstruct_next(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                                 const std::vector<VerifiedPair>& pairs,
-                                const AerialMappingOptions& options, const KnownPoses& known) {
-  return Reconstructor(set, features, pairs, options).from_known(known);
+                                const AerialMappingOptions& options, const KnownPoses& known,
+                                const StopToken& stop) {
+  return Reconstructor(set, features, pairs, options, stop).from_known(known);
 }
 
 }  // namespace nadir::aerial

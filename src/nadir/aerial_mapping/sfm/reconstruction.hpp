@@ -12,6 +12,7 @@
 #include "nadir/aerial_mapping/sfm/adjustment.hpp"
 #include "nadir/aerial_mapping/sfm/matching.hpp"
 #include "nadir/aerial_mapping/sfm/model.hpp"
+#include "nadir/core/stop.hpp"
 
 namespace nadir::aerial {
 
@@ -37,16 +38,16 @@ struct Reconstruction {
 Model start_model(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                   const std::vector<VerifiedPair>& pairs, int min_inliers);
 
-/// Finds the poses of the photos from their matches and priors.
+/// Finds the poses of the photos from their matches and priors. Throws Stopped, as the others do.
 Reconstruction reconstruct(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                            const std::vector<VerifiedPair>& pairs,
-                           const AerialMappingOptions& options);
+                           const AerialMappingOptions& options, const StopToken& stop);
 
 /// Takes the poses that the photos bring along and triangulates their tracks; adjusts them where
 /// the options say so.
 Reconstruction reconstruct_posed(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                                  const std::vector<VerifiedPair>& pairs,
-                                 const AerialMappingOptions& options);
+                                 const AerialMappingOptions& options, const StopToken& stop);
 
 /// What an earlier reconstruction of some of the photos found.
 struct KnownPoses {
@@ -60,6 +61,7 @@ struct KnownPoses {
 /// no surface points of its own, no uncertainty.
 Reconstruction reconstruct_next(const PhotoSet& set, const std::vector<PhotoFeatures>& features,
                                 const std::vector<VerifiedPair>& pairs,
-                                const AerialMappingOptions& options, const KnownPoses& known);
+                                const AerialMappingOptions& options, const KnownPoses& known,
+                                const StopToken& stop);
 
 }  // namespace nadir::aerial

@@ -28,11 +28,12 @@ bool is_near(const MapIndex& map, const Pose2& pose) {
 /// Scores every pose near the map by `score`, in parallel; the others are undefined.
 template <class ScorePose>
 std::vector<PoseScore> score_each(const MapIndex& map, std::span<const Pose2> poses,
-                                  const ScorePose& score) {
+                                  const StopToken& stop, const ScorePose& score) {
   constexpr std::size_t kGrain = 16;
   std::vector<PoseScore> scores(poses.size(), {kUndefinedScore, 0.0});
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
+                      stop.check();
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
                         if (is_near(map, poses[i])) scores[i] = score(poses[i]);
                       }
@@ -60,29 +61,33 @@ class CpuBackend : public MatchingBackend {
 
   std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                            std::span<const RotatedTemplate> templates,
-                                           const PixelWindow& window) const override {
+                                           const PixelWindow& window,
+                                           const StopToken& stop) const override {
     if (templates.empty() || window.width <= 0 || window.height <= 0) return {};
     const MatchingOptions& options = map.options();
     if (cpu::is_closed_form(options.score)) {
-      return cpu::closed_form_surfaces(map, templates, window);
+      return cpu::closed_form_surfaces(map, templates, window, stop);
     }
     const cpu::Region region = cpu::cut_region(
         map.channel(),
         cpu::place_region(map.channel(), templates, window, cpu::RegionExtent::kWhole), window,
         pixel_role(options).whole_square);
-    if (options.score == Score::kSad) return cpu::sad_surfaces(options, region, templates, window);
-    return cpu::paper_surfaces(options, region, templates, window);
+    if (options.score == Score::kSad) {
+      return cpu::sad_surfaces(options, region, templates, window, stop);
+    }
+    return cpu::paper_surfaces(options, region, templates, window, stop);
   }
 
   std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                     std::span<const Pose2> poses) const override {
+                                     std::span<const Pose2> poses,
+                                     const StopToken& stop) const override {
     const MatchingOptions& options = map.options();
     if (!cpu::is_closed_form(options.score) || pixel_role(options).whole_square) {
-      return score_each(map, poses, cpu::SampledScorer(map, local));
+      return score_each(map, poses, stop, cpu::SampledScorer(map, local));
     }
     const cpu::PixelList pixels =
         cpu::list_pixels(local.channel, options, map.channel().geo.resolution, map.mean_grey());
-    return score_each(map, poses,
+    return score_each(map, poses, stop,
                       [&](const Pose2& pose) { return closed_form_score(map, pixels, pose); });
   }
 };

@@ -144,7 +144,7 @@ ScoreSurface surface_of(const MapSpectra& map, const MatchingOptions& options,
 /// Surfaces over a window that one transform holds.
 std::vector<ScoreSurface> tile_surfaces(const MapIndex& map,
                                         std::span<const RotatedTemplate> templates,
-                                        const PixelWindow& window) {
+                                        const PixelWindow& window, const StopToken& stop) {
   const MatchingOptions& options = map.options();
   const bool whole_square = pixel_role(options).whole_square;
   const RegionPlace place =
@@ -175,6 +175,7 @@ std::vector<ScoreSurface> tile_surfaces(const MapIndex& map,
   tbb::parallel_for(std::size_t{0}, slots, [&](std::size_t slot) {
     CorrelatorScratch scratch;
     for (std::size_t k = slot; k < templates.size(); k += slots) {
+      stop.check();
       surfaces[k] =
           surface_of(*spectra, options, place, templates[k], window, scratch, slots < threads);
     }
@@ -193,12 +194,12 @@ void paste(const Raster<float>& tile, int left, int top, Raster<float>& whole) {
 
 std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
                                                std::span<const RotatedTemplate> templates,
-                                               const PixelWindow& window) {
+                                               const PixelWindow& window, const StopToken& stop) {
   const TemplateBounds bounds = bounds_of(templates);
   const int width = std::max(kSmallestTile, kLongestTransform - (bounds.right - bounds.left));
   const int height = std::max(kSmallestTile, kLongestTransform - (bounds.bottom - bounds.top));
   if (window.width <= width && window.height <= height) {
-    return tile_surfaces(map, templates, window);
+    return tile_surfaces(map, templates, window, stop);
   }
   std::vector<ScoreSurface> surfaces(templates.size(),
                                      {Raster<float>(window.width, window.height, kUndefinedScore),
@@ -208,7 +209,8 @@ std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
       const std::vector<ScoreSurface> tiles =
           tile_surfaces(map, templates,
                         {window.left + left, window.top + top, std::min(width, window.width - left),
-                         std::min(height, window.height - top)});
+                         std::min(height, window.height - top)},
+                        stop);
       for (std::size_t k = 0; k < tiles.size(); ++k) {
         paste(tiles[k].score, left, top, surfaces[k].score);
         paste(tiles[k].valid_weight, left, top, surfaces[k].valid_weight);

@@ -12,6 +12,6 @@ namespace nadir::cpu {
 /// headings at once as 256 MiB allow.
 std::vector<ScoreSurface> closed_form_surfaces(const MapIndex& map,
                                                std::span<const RotatedTemplate> templates,
-                                               const PixelWindow& window);
+                                               const PixelWindow& window, const StopToken& stop);
 
 }  // namespace nadir::cpu

@@ -107,7 +107,8 @@ Raster<float> absolute_deviation(const Raster<float>& value, int level) {
 }
 
 std::map<int, Spectrum> level_spectra(const Correlator& correlator, const Region& region,
-                                      std::span<const WindowMoments> moments) {
+                                      std::span<const WindowMoments> moments,
+                                      const StopToken& stop) {
   std::array<bool, 257> needed{};
   for (const WindowMoments& window : moments) {
     for (const float mean : window.mean.values()) {
@@ -123,6 +124,7 @@ std::map<int, Spectrum> level_spectra(const Correlator& correlator, const Region
   tbb::parallel_for(0, static_cast<int>(needed.size()), [&](int level) {
     const auto found = spectra.find(level);
     if (found == spectra.end()) return;
+    stop.check();
     found->second = correlator.forward(absolute_deviation(region.value, level));
   });
   return spectra;
@@ -133,7 +135,7 @@ std::map<int, Spectrum> level_spectra(const Correlator& correlator, const Region
 Raster<float> numerator_of(const Correlator& correlator, const std::map<int, Spectrum>& levels,
                            const Region& region, const RotatedTemplate& local,
                            const PixelWindow& window, const WindowMoments& moments,
-                           CorrelatorScratch& scratch) {
+                           CorrelatorScratch& scratch, const StopToken& stop) {
   std::vector<int> used;
   for (const auto& entry : levels) {
     const auto at = static_cast<float>(entry.first);
@@ -145,6 +147,7 @@ Raster<float> numerator_of(const Correlator& correlator, const std::map<int, Spe
   Raster<float> numerator(window.width, window.height);
   const Raster<float>* const locals[] = {&moments.deviation};
   for (std::size_t begin = 0; begin < used.size(); begin += kLevelsAtOnce) {
+    stop.check();
     const std::size_t end = std::min(begin + kLevelsAtOnce, used.size());
     std::vector<const Spectrum*> maps;
     std::vector<Product> products;
@@ -177,9 +180,9 @@ Raster<float> numerator_of(const Correlator& correlator, const std::map<int, Spe
 ScoreSurface paper_surface(const Correlator& correlator, const std::map<int, Spectrum>& levels,
                            const Region& region, const RotatedTemplate& local,
                            const PixelWindow& window, const WindowMoments& moments,
-                           CorrelatorScratch& scratch) {
+                           CorrelatorScratch& scratch, const StopToken& stop) {
   const Raster<float> numerator =
-      numerator_of(correlator, levels, region, local, window, moments, scratch);
+      numerator_of(correlator, levels, region, local, window, moments, scratch, stop);
   ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
                        moments.valid_weight};
   for (std::size_t i = 0; i < numerator.values().size(); ++i) {
@@ -195,7 +198,7 @@ ScoreSurface paper_surface(const Correlator& correlator, const std::map<int, Spe
 
 std::vector<ScoreSurface> paper_surfaces(const MatchingOptions& options, const Region& region,
                                          std::span<const RotatedTemplate> templates,
-                                         const PixelWindow& window) {
+                                         const PixelWindow& window, const StopToken& stop) {
   const Correlator correlator(region.place.period_width, region.place.period_height);
   PaperMapSpectra map;
   map.shift = mean_grey(region.value, region.takes_part);
@@ -207,14 +210,15 @@ std::vector<ScoreSurface> paper_surfaces(const MatchingOptions& options, const R
   CorrelatorScratch scratch;
   std::vector<WindowMoments> moments;
   for (const RotatedTemplate& local : templates) {
+    stop.check();
     moments.push_back(
         window_moments(correlator, map, region, local, window, options.min_valid_weight, scratch));
   }
-  const std::map<int, Spectrum> levels = level_spectra(correlator, region, moments);
+  const std::map<int, Spectrum> levels = level_spectra(correlator, region, moments, stop);
   std::vector<ScoreSurface> surfaces;
   for (std::size_t k = 0; k < templates.size(); ++k) {
     surfaces.push_back(
-        paper_surface(correlator, levels, region, templates[k], window, moments[k], scratch));
+        paper_surface(correlator, levels, region, templates[k], window, moments[k], scratch, stop));
   }
   return surfaces;
 }

@@ -13,6 +13,6 @@ namespace nadir::cpu {
 /// window means are correlated.
 std::vector<ScoreSurface> paper_surfaces(const MatchingOptions& options, const Region& region,
                                          std::span<const RotatedTemplate> templates,
-                                         const PixelWindow& window);
+                                         const PixelWindow& window, const StopToken& stop);
 
 }  // namespace nadir::cpu

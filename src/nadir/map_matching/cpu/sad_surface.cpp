@@ -48,12 +48,13 @@ RowSums sum_row(const Region& region, const RotatedTemplate& local, const PixelW
 
 std::vector<ScoreSurface> sad_surfaces(const MatchingOptions& options, const Region& region,
                                        std::span<const RotatedTemplate> templates,
-                                       const PixelWindow& window) {
+                                       const PixelWindow& window, const StopToken& stop) {
   std::vector<ScoreSurface> surfaces;
   for (const RotatedTemplate& local : templates) {
     ScoreSurface surface{Raster<float>(window.width, window.height, kUndefinedScore),
                          Raster<float>(window.width, window.height)};
     tbb::parallel_for(0, window.height, [&](int row) {
+      stop.check();
       const RowSums sums = sum_row(region, local, window, row);
       for (int column = 0; column < window.width; ++column) {
         const auto x = static_cast<std::size_t>(column);

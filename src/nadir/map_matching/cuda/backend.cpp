@@ -135,12 +135,15 @@ std::shared_ptr<PreparedMap> DeviceBackend::prepare(const MapIndex& map) const {
 
 std::vector<ScoreSurface> DeviceBackend::score_surfaces(const MapIndex& map,
                                                         std::span<const RotatedTemplate> templates,
-                                                        const PixelWindow& window) const {
-  return KeptMap(*this, map).score_surfaces(templates, window);
+                                                        const PixelWindow& window,
+                                                        const StopToken& stop) const {
+  return KeptMap(*this, map).score_surfaces(templates, window, stop);
 }
 
 std::vector<PoseScore> DeviceBackend::score_poses(const MapIndex& map, const Template& local,
-                                                  std::span<const Pose2> map_from_robot) const {
+                                                  std::span<const Pose2> map_from_robot,
+                                                  const StopToken& stop) const {
+  stop.check();
   return KeptMap(*this, map).score_poses(local, map_from_robot);
 }
 
@@ -152,17 +155,18 @@ KeptMap::KeptMap(const DeviceBackend& backend, const MapIndex& map) : map_(map) 
 
 PlaneShape KeptMap::shape() const { return on_device_->whole.shape; }
 
-SurfaceJob KeptMap::job_over(const Box& box, const PixelWindow& window,
-                             std::size_t templates) const {
+SurfaceJob KeptMap::job_over(const Box& box, const PixelWindow& window, std::size_t templates,
+                             const StopToken& stop) const {
   return {touching(window, box, *on_device_), box, static_cast<int>(templates),
-          rule_of(map_.options())};
+          rule_of(map_.options()), stop};
 }
 
 std::vector<ScoreSurface> KeptMap::score_surfaces(std::span<const RotatedTemplate> templates,
-                                                  const PixelWindow& window) const {
+                                                  const PixelWindow& window,
+                                                  const StopToken& stop) const {
   if (templates.empty() || window.width <= 0 || window.height <= 0) return {};
   const std::lock_guard lock(on_device_->mutex);
-  const SurfaceJob job = job_over(box_around(templates), window, templates.size());
+  const SurfaceJob job = job_over(box_around(templates), window, templates.size(), stop);
   DownloadSink sink(*on_device_->device, job, window);
   if (!is_empty(job.window)) run_on_templates(*on_device_, job, templates, sink);
   return std::move(sink.surfaces);
@@ -179,7 +183,8 @@ std::vector<Place> KeptMap::best_places(const Template& local, std::span<const d
   if (yaws.empty() || window.width <= 0 || window.height <= 0) return {};
   const std::lock_guard lock(on_device_->mutex);
   const double resolution = map_.channel().geo.resolution;
-  const SurfaceJob job = job_over(box_around(local.channel, yaws, resolution), window, yaws.size());
+  const SurfaceJob job =
+      job_over(box_around(local.channel, yaws, resolution), window, yaws.size(), {});
   if (is_empty(job.window)) return {};
   PeakSink sink(*on_device_->device, job, window, wanted);
   if (is_correlation(job.rule) && !job.rule.whole_square) {

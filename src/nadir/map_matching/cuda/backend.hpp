@@ -24,9 +24,11 @@ class DeviceBackend : public MatchingBackend {
   std::shared_ptr<PreparedMap> prepare(const MapIndex& map) const override;
   std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                            std::span<const RotatedTemplate> templates,
-                                           const PixelWindow& window) const override;
+                                           const PixelWindow& window,
+                                           const StopToken& stop = {}) const override;
   std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                     std::span<const Pose2> map_from_robot) const override;
+                                     std::span<const Pose2> map_from_robot,
+                                     const StopToken& stop = {}) const override;
 
  private:
   MakeDevice make_;
@@ -39,7 +41,8 @@ class KeptMap {
   KeptMap(const DeviceBackend& backend, const MapIndex& map);
 
   std::vector<ScoreSurface> score_surfaces(std::span<const RotatedTemplate> templates,
-                                           const PixelWindow& window) const;
+                                           const PixelWindow& window,
+                                           const StopToken& stop = {}) const;
   std::vector<PoseScore> score_poses(const Template& local,
                                      std::span<const Pose2> map_from_robot) const;
   /// The best local maxima of a search, best first, without the surfaces leaving the device.
@@ -50,7 +53,8 @@ class KeptMap {
   PlaneShape shape() const;
 
  private:
-  SurfaceJob job_over(const Box& box, const PixelWindow& window, std::size_t templates) const;
+  SurfaceJob job_over(const Box& box, const PixelWindow& window, std::size_t templates,
+                      const StopToken& stop) const;
 
   const MapIndex& map_;
   std::shared_ptr<DeviceMap> on_device_;

@@ -34,7 +34,7 @@ int batch_size(int count, std::size_t bytes, std::size_t bytes_per_template) {
   return static_cast<int>((all + batches - 1) / batches);
 }
 
-void for_each_batch(DeviceMap& map, int count, int size, SurfaceSink& sink,
+void for_each_batch(DeviceMap& map, const SurfaceJob& job, int size, SurfaceSink& sink,
                     const std::function<void(const Batch&)>& work) {
   std::array<std::optional<Batch>, Device::kStreams> pending;
   const auto finish = [&](std::size_t stream) {
@@ -42,10 +42,10 @@ void for_each_batch(DeviceMap& map, int count, int size, SurfaceSink& sink,
     pending[stream].reset();
   };
   int number = 0;
-  for (int first = 0; first < count; first += size, ++number) {
+  for (int first = 0; first < job.count && !job.stop.stop_requested(); first += size, ++number) {
     const auto stream = static_cast<std::size_t>(number % Device::kStreams);
     finish(stream);
-    const Batch batch{first, std::min(size, count - first), static_cast<int>(stream)};
+    const Batch batch{first, std::min(size, job.count - first), static_cast<int>(stream)};
     work(batch);
     sink.begin(batch, map.work[stream]);
     pending[stream] = batch;
@@ -53,6 +53,7 @@ void for_each_batch(DeviceMap& map, int count, int size, SurfaceSink& sink,
   for (int i = 0; i < Device::kStreams; ++i) {  // the older first
     finish(static_cast<std::size_t>((number + i) % Device::kStreams));
   }
+  job.stop.check();
 }
 
 }  // namespace nadir::cuda

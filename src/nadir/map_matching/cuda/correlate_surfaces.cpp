@@ -113,7 +113,7 @@ void correlate_surfaces(DeviceMap& map, const SurfaceJob& job, const FillTemplat
   const Box positions{job.window.left - spectra.crop.left, job.window.top - spectra.crop.top,
                       job.window.width, job.window.height};
 
-  for_each_batch(map, job.count, size, sink, [&](const Batch& batch) {
+  for_each_batch(map, job, size, sink, [&](const Batch& batch) {
     StreamWork& work = map.work[static_cast<std::size_t>(batch.stream)];
     prepare_transforms(device, work, shape, size, formula, batch.stream);
     float* templates =

@@ -93,7 +93,7 @@ void sum_surfaces(DeviceMap& map, const SurfaceJob& job, std::span<const Rotated
       window * (2 * sizeof(float) + sizeof(PeakKey)) + words * sizeof(TemplateWord);
   const int size = batch_size(job.count, device.workspace_bytes(), bytes);
   const std::size_t scores = window * static_cast<std::size_t>(size);
-  for_each_batch(map, job.count, size, sink, [&](const Batch& batch) {
+  for_each_batch(map, job, size, sink, [&](const Batch& batch) {
     StreamWork& work = map.work[static_cast<std::size_t>(batch.stream)];
     Lists lists;
     for (const RotatedTemplate& local : templates.subspan(static_cast<std::size_t>(batch.first),

@@ -14,6 +14,7 @@ struct SurfaceJob {
   Box box;
   int count = 0;
   Rule rule;
+  StopToken stop = {};
 };
 
 /// A run of templates, by their numbers.
@@ -58,8 +59,9 @@ int fft_size(int least);
 /// batches for them to share.
 int batch_size(int count, std::size_t bytes, std::size_t bytes_per_template);
 
-/// Runs `work` on batches that alternate between the streams.
-void for_each_batch(DeviceMap& map, int count, int size, SurfaceSink& sink,
+/// Runs `work` on batches of `size` templates that alternate between the streams. Throws Stopped,
+/// with nothing left on its way.
+void for_each_batch(DeviceMap& map, const SurfaceJob& job, int size, SurfaceSink& sink,
                     const std::function<void(const Batch&)>& work);
 
 }  // namespace nadir::cuda

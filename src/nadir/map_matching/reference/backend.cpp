@@ -97,7 +97,8 @@ class ReferenceBackend : public MatchingBackend {
  public:
   std::vector<ScoreSurface> score_surfaces(const MapIndex& map,
                                            std::span<const RotatedTemplate> templates,
-                                           const PixelWindow& window) const override {
+                                           const PixelWindow& window,
+                                           const StopToken& stop) const override {
     const PixelRole role = pixel_role(map.options());
     std::vector<ScoreSurface> surfaces;
     for (const RotatedTemplate& local : templates) {
@@ -105,6 +106,7 @@ class ReferenceBackend : public MatchingBackend {
                            Raster<float>(window.width, window.height)};
       for (int row = 0; row < window.height; ++row) {
         for (int column = 0; column < window.width; ++column) {
+          stop.check();
           const PoseScore score =
               score_of(place(map.channel(), local, role, window.left + column, window.top + row),
                        map.options());
@@ -118,10 +120,12 @@ class ReferenceBackend : public MatchingBackend {
   }
 
   std::vector<PoseScore> score_poses(const MapIndex& map, const Template& local,
-                                     std::span<const Pose2> map_from_robot) const override {
+                                     std::span<const Pose2> map_from_robot,
+                                     const StopToken& stop) const override {
     const PixelRole role = pixel_role(map.options());
     std::vector<PoseScore> scores;
     for (const Pose2& pose : map_from_robot) {
+      stop.check();
       scores.push_back(score_of(place(map.channel(), local.channel, role, pose), map.options()));
     }
     return scores;
