@@ -50,7 +50,7 @@ class DriveMapping {
 
   /// Takes the frames up to and with this position, calling `progress(frames done)` after each, and
   /// renders; nothing where no frame so far had a point. Positions must increase. Throws
-  /// Interrupted, and Error (input) where the poses plainly do not fit the images.
+  /// Stopped, and Error (input) where the poses plainly do not fit the images.
   std::optional<RenderedMap> map_at(std::size_t position,
                                     const std::function<void(int)>& progress = {});
 

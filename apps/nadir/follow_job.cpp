@@ -18,9 +18,11 @@
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/photo_file.hpp"
+#include "nadir/io/shell.hpp"
 #include "photo_pixels.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -110,8 +112,10 @@ class Growing {
   bool empty() const { return input_.photos.empty(); }
   int photos() const { return static_cast<int>(input_.photos.size()); }
   const FlightInput& input() const { return input_; }
-  AerialMap finish(const MappingProgress& progress) { return mapper_->finish(progress); }
-  /// Says that the map of all photos together is there; every tile may have changed.
+  AerialMap finish() { return mapper_->finish({}, interrupt_token()); }
+  /// The map as it stands.
+  const AerialMap& current() const { return mapper_->current(); }
+  /// Says that this map will not change any more; every tile may have changed.
   void write_final(const AerialMap& map) const {
     write_file(update_file(options_.map), json_text(update_of(map, version_ + 1, true), 1) + "\n");
   }
@@ -144,7 +148,7 @@ class Growing {
     photo.camera = mapper_->add_camera(cameras.cameras.front());
     photo.prior = prior_of(metadata, input_.frame ? &*input_.frame : nullptr);
     photo.load = pixels_.loader(file);
-    const MapUpdate update = mapper_->add(photo);
+    const MapUpdate update = mapper_->add(photo, interrupt_token());
     input_.photos.push_back(metadata);
     input_.set.photos.push_back(std::move(photo));
     const AerialMap& map = mapper_->current();
@@ -191,7 +195,8 @@ class Growing {
   int version_ = 0;
 };
 
-/// Takes photos until there are enough, none comes any more, or the user stops.
+/// Takes photos until there are enough, none comes any more, or the user stops. Throws Stopped
+/// where that happens while a photo is taken up.
 void take_photos(const MapOptions& options, Growing& growing) {
   constexpr std::chrono::milliseconds kLook{200};
   Arrivals arrivals(options.flight.photos);
@@ -206,6 +211,34 @@ void take_photos(const MapOptions& options, Growing& growing) {
     if (options.photos > 0 && growing.photos() >= options.photos) return;
     std::this_thread::sleep_for(kLook);
   }
+}
+
+/// False where the user ended it: within a photo it stays out of the map.
+bool follow_to_the_end(const MapOptions& options, Growing& growing) {
+  interrupt_is_the_end(true);
+  try {
+    take_photos(options, growing);
+  } catch (const Stopped&) {
+  }
+  interrupt_is_the_end(interrupted());
+  return !interrupted();
+}
+
+/// The map stays as the last photo left it: to adjust all photos together takes longer than who
+/// ends a program waits.
+int end_here(const MapOptions& options, const CommonOptions& common, const Growing& growing) {
+  if (!growing.empty()) growing.write_final(growing.current());
+  const std::string again = "nadir " + shell_line({"map", options.flight.photos.string(), "-o",
+                                                   options.map.string(), "--overwrite"});
+  const std::string text =
+      growing.empty() ? "stopped before the first photo\n"
+                      : fmt::format(
+                            "stopped after {} photos; {} is as the last of them left it. `{}` "
+                            "adjusts all of them together\n",
+                            growing.photos(), options.map.string(), again);
+  print_result({{"map", options.map.string()}, {"photos", growing.photos()}, {"adjusted", false}},
+               text, Verdict{}, common);
+  return 0;
 }
 
 }  // namespace
@@ -227,15 +260,13 @@ int follow_flight(const MapOptions& options, const Invocation& invocation) {
   make_folder_of(options.map);
   Growing growing(options, effective.aerial_mapping(), common);
   print_note("waiting for photos in " + options.flight.photos.string(), common.quiet);
-  take_photos(options, growing);
+  if (!follow_to_the_end(options, growing)) return end_here(options, common, growing);
   if (growing.empty()) {
     stop_if_interrupted();
     throw Error(ErrorKind::kInput, "no photo came", options.flight.photos.string(),
                 "give a longer --idle");
   }
-  // An interrupt ends the flight, and the final map is still made.
-  interrupt_is_the_end();
-  const AerialMap map = growing.finish({});
+  const AerialMap map = growing.finish();
   const int code = write_map(map, growing.input(), options, common);
   growing.write_final(map);
   return code;

@@ -89,7 +89,7 @@ void GroundJob::write_maps(SequenceWriter& writer, DriveOverview& overview) {
       write_local_map(writer, *rendered);
       overview.add(rendered->map);
     }
-  } catch (const Interrupted&) {
+  } catch (const Stopped&) {
     if (render_ms_.empty()) throw;  // what is there by now is worth keeping
   }
   if (render_ms_.empty()) {

@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
+#include <string_view>
 
 namespace nadir::cli {
 namespace {
 
+// Written by signal handlers and read by all threads.
 std::atomic<int> noted_signal{0};
-bool is_the_end = false;
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<bool> is_the_end{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+/// From the signal on; less than the three seconds within which every verb ends.
+constexpr unsigned kPatienceS = 2;
+
+extern "C" void end_the_process(int /*signal_number*/) {
+  constexpr std::string_view kSaid =
+      "nadir: stopped within a step that cannot be interrupted; what was finished is kept\n";
+  if (!is_the_end) [[maybe_unused]]
+    const auto n = write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  _exit(interrupted_exit_code());
+}
 
 extern "C" void note_interrupt(int signal_number) {
-  noted_signal = signal_number;
-  std::signal(signal_number, SIG_DFL);
+  int none = 0;
+  if (noted_signal.compare_exchange_strong(none, signal_number)) alarm(kPatienceS);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
@@ -21,20 +38,24 @@ extern "C" void note_interrupt(int signal_number) {
 void catch_signals() {
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
+  std::signal(SIGALRM, end_the_process);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return noted_signal != 0; }
 
 void stop_if_interrupted() {
-  if (interrupted()) throw Interrupted{};
+  if (interrupted()) throw Stopped{};
 }
+
+StopToken interrupt_token() { return StopToken(interrupted); }
 
 int interrupted_exit_code() {
   constexpr int kOfShells = 128;
   return is_the_end ? 0 : kOfShells + noted_signal;
 }
 
-void interrupt_is_the_end() { is_the_end = true; }
+void interrupt_is_the_end(bool is) { is_the_end = is; }
 
 }  // namespace nadir::cli

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "nadir/core/stop.hpp"
+
 namespace nadir::cli {
 
-/// Thrown where work stops at an interrupt and has no partial result worth keeping.
-struct Interrupted {};
-
-/// From now on a first SIGINT or SIGTERM is noted and work ends at the next frame; a second one
-/// ends the process at once. A closed pipe becomes a write that fails, so that files are finished.
+/// From now on a first SIGINT or SIGTERM is noted, and work ends where it next asks for it. Where
+/// it does not ask within two seconds, as in the middle of a call of a library that cannot be
+/// stopped, the process ends there: files have their names only when they are whole, so no more is
+/// lost than by the other way. A second signal ends the process at once. A closed pipe and a file
+/// that may not grow become writes that fail.
 void catch_signals();
 
-/// Whether an interrupt was noted.
+/// Whether SIGINT or SIGTERM was noted.
 bool interrupted();
 
-/// Throws Interrupted if so.
+/// Throws Stopped if so.
 void stop_if_interrupted();
 
+/// Stops work at an interrupt.
+StopToken interrupt_token();
+
 /// What the process ends with after an interrupt, as shells have it: 128 and the number of the
-/// signal, 130 for SIGINT and 143 for SIGTERM. 0 after interrupt_is_the_end().
+/// signal, 130 for SIGINT and 143 for SIGTERM. 0 where an interrupt is the end.
 int interrupted_exit_code();
 
-/// What goes on now has no end of its own: an interrupt is how it ends, and success.
-void interrupt_is_the_end();
+/// Whether what goes on now has no end of its own: an interrupt is how it ends, and success.
+void interrupt_is_the_end(bool is);
 
 }  // namespace nadir::cli

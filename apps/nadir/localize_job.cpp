@@ -254,19 +254,17 @@ int LocalizeJob::run() {
   }
   const std::vector<SeedRun> runs = run_seeds(map, output.staging());
   finish_kept_site();
-  if (runs.empty()) throw Interrupted{};
+  if (runs.empty()) throw Stopped{};
   draw(map, runs.front(), output.staging());
   const Verdict verdict = verdict_of(runs);
   write_summary_files(runs, output.staging(), verdict, stopwatch.seconds());
   write_run_report(output.staging());
   output.commit();
   report(runs, verdict);
-  if (live_) {
-    interrupt_is_the_end();
-    if (!interrupted()) {
-      print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);
-      live_->serve_until_interrupted();
-    }
+  if (live_ && !interrupted()) {
+    print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);
+    interrupt_is_the_end(true);
+    live_->serve_until_interrupted();
   }
   return conclude(verdict);
 }

@@ -33,7 +33,7 @@ std::pair<FrameRecord, Orthomosaic> run_frame(Localizer& localizer, const RunPla
   record.decode_s = decoding.seconds();
   if (!plan.use_odometry_file) frame.odom_from_robot.reset();
   const Stopwatch updating;
-  record.estimate = localizer.update(frame);
+  record.estimate = localizer.update(frame, interrupt_token());
   record.update_s = updating.seconds();
   return {record, std::move(frame.local)};
 }
@@ -98,7 +98,7 @@ RunResult run_localizer(const RunPlan& plan, const std::function<void(int)>& pro
       auto [record, local] = run_frame(localizer, plan, local_map);
       result.records.push_back(record);
       keep_for_figures(result, plan, localizer.particles(), std::move(local));
-    } catch (const Interrupted&) {  // while the local map was being made
+    } catch (const Stopped&) {  // while the local map was being made
       result.interrupted = true;
       break;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "interrupt.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/elevation_file.hpp"
@@ -13,6 +14,7 @@
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
 #include "nadir/io/photo_poses.hpp"
+#include "nadir/io/unfinished_folder.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -89,14 +91,31 @@ void make_folder_of(const fs::path& map) {
     throw Error(ErrorKind::kProcessing, "cannot create the output folder: " + error.message(),
                 map.parent_path().string(), "check the place and its rights");
   }
+  const MapFiles files(map);
+  for (const fs::path* file : files.all()) remove_abandoned(*file);
 }
 
 void write_map_files(const MapFiles& files, const AerialMap& map) {
   write_elevation_map(files.surface, map.surface);
+  stop_if_interrupted();
   write_orthomosaic(files.views, view_count_raster(map));
+  stop_if_interrupted();
   write_elevation_map(files.quality, quality_raster(map));
+  stop_if_interrupted();
   write_photo_poses(files.poses, map.poses, map.ortho.geo.crs);
   write_orthomosaic(files.map, map.ortho);
+}
+
+void move_map_files(const MapFiles& from, const MapFiles& to) {
+  const auto sources = from.all();
+  const auto targets = to.all();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    std::error_code error;
+    fs::rename(*sources[i], *targets[i], error);
+    if (!error) continue;
+    throw Error(ErrorKind::kProcessing, "cannot be written: " + error.message(),
+                targets[i]->string(), "check the folder, its permissions and the free space");
+  }
 }
 
 }  // namespace nadir::cli

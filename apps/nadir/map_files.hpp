@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct MapFiles {
   std::filesystem::path poses;
   std::filesystem::path report;
   std::filesystem::path page;
+
+  std::array<const std::filesystem::path*, 7> all() const& {
+    return {&surface, &views, &quality, &poses, &report, &page, &map};
+  }
+  void all() const&& = delete;  // they would point to what is gone
 };
 
 /// Throws Error (usage) for a map that is no .tif, that is there already without --overwrite, or
@@ -33,11 +39,15 @@ void require_new(const std::filesystem::path& map, const CommonOptions& common);
 void require_room_for_sisters(const std::filesystem::path& map);
 /// The folder that a map will lie in, or the nearest above it that is there already.
 std::filesystem::path standing_folder_of(const std::filesystem::path& map);
-/// Makes the folder of a map where it is not there. Throws Error (processing) where it cannot.
+/// Makes the folder of a map where it is not there, and removes what runs that were killed left of
+/// it. Throws Error (processing) where it cannot.
 void make_folder_of(const std::filesystem::path& map);
 
-/// Writes the rasters and the poses, the map last: where it is, all is.
+/// Writes the rasters and the poses. Throws Stopped between them.
 void write_map_files(const MapFiles& files, const AerialMap& map);
+/// Gives files that are whole other names on the same disk, replacing what is there, the map last:
+/// where it is, all is. Throws Error (processing).
+void move_map_files(const MapFiles& from, const MapFiles& to);
 
 /// What of the photos and of the map must not be relied on unseen; photos that do not join it
 /// among that, unless `allow_parts`.

@@ -17,6 +17,7 @@
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/colmap_process.hpp"
 #include "nadir/io/file_names.hpp"
+#include "nadir/io/unfinished_folder.hpp"
 #include "progress.hpp"
 #include "stopwatch.hpp"
 #include "threads.hpp"
@@ -65,15 +66,21 @@ int explain(const MapOptions& options, const FlightInput& input, const CommonOpt
 void solve_by_colmap(const MapOptions& options, const CommonOptions& common, FlightInput& input) {
   const fs::path work = options.map.parent_path() / ("." + short_name(options.map.stem()) +
                                                      ".colmap-" + std::to_string(getpid()));
+  fs::remove_all(work);  // of a run that was killed, in another container, under this number
   fs::create_directories(work);
   std::vector<std::string> names;
   for (const fs::path& file : input.files) {
     names.push_back(fs::relative(file, options.flight.photos).string());
   }
   try {
-    add_poses(run_colmap(options.flight.photos, names, work,
-                         [&](const std::string& step) { print_note(step, common.quiet); }),
-              "colmap", input);
+    add_poses(
+        run_colmap(
+            options.flight.photos, names, work,
+            [&](const std::string& step) { print_note(step, common.quiet); }, interrupt_token()),
+        "colmap", input);
+  } catch (const Stopped&) {
+    fs::remove_all(work);
+    throw;
   } catch (const Error& error) {
     // Its log is worth keeping where it ran at all.
     if (error.kind() == ErrorKind::kUsage) fs::remove_all(work);
@@ -82,22 +89,23 @@ void solve_by_colmap(const MapOptions& options, const CommonOptions& common, Fli
   fs::remove_all(work);
 }
 
-/// Takes up what an interrupted mapping of these photos left beside the map.
+/// Takes up what an earlier mapping of these photos left beside the map, and leaves there what it
+/// finds until the map is written, whatever stops it: a photo that cannot be read, or that does not
+/// join, costs no more than itself.
 AerialMap map_resumably(const PhotoSet& photos, const AerialMappingOptions& options,
                         const CommonOptions& common, MappingWork& work) {
   try {
-    AerialMap map = map_photos(photos, options, mapping_progress(common), &work);
+    AerialMap map = map_photos(photos, options, mapping_progress(common), &work, interrupt_token());
     if (work.taken_up() > 0) {
       print_note(fmt::format("took up {} features and matches from {}", work.taken_up(),
                              work.folder().string()),
                  common.quiet);
     }
     return map;
-  } catch (const Interrupted&) {
-    print_note("the same command goes on from " + work.folder().string(), common.quiet);
-    throw;
-  } catch (const Error&) {
-    work.remove();
+  } catch (...) {
+    if (work.holds_something()) {
+      print_note("the same command goes on from " + work.folder().string(), common.quiet);
+    }
     throw;
   }
 }
@@ -107,7 +115,6 @@ AerialMap map_resumably(const PhotoSet& photos, const AerialMappingOptions& opti
 MappingProgress mapping_progress(const CommonOptions& common) {
   const auto bar = std::make_shared<Progress>("mapping", kProgressSteps, common);
   return [bar](const std::string& stage, double share) {
-    stop_if_interrupted();
     double done = 0.0;
     for (const MappingStage& known : kMappingStages) {
       if (stage == known.name) {
@@ -170,14 +177,18 @@ void check_size(const AerialMappingOptions& options, const fs::path& map, Flight
 int write_map(AerialMap map, const FlightInput& input, const MapOptions& options,
               const CommonOptions& common) {
   const Stopwatch stopwatch;
-  const MapFiles files(options.map);
+  const UnfinishedFolder unfinished(options.map);
+  const MapFiles files(unfinished.path() / options.map.filename());
   write_file(files.page, report_page(map, input, options.map.filename().string()));
+  stop_if_interrupted();
   write_map_files(files, map);
   map.report.seconds.emplace_back("write", stopwatch.seconds());
   const Verdict verdict = verdict_of(map, input, options.allow_parts);
   Json report = report_of(map, input);
   add_verdict(report, verdict);
   write_file(files.report, json_text(report, 2) + "\n");
+  stop_if_interrupted();
+  move_map_files(files, MapFiles(options.map));
   for (const std::string& warning : map.report.warnings) {
     if (std::ranges::count(map.report.doubts, warning) == 0) print_note(warning, common.quiet);
   }

@@ -26,11 +26,12 @@ struct MapOptions {
 /// not all photos join and parts are not allowed.
 int map_flight(const MapOptions& options, const Invocation& invocation);
 
-/// Writes the map's files and reports it; returns the exit code as map_flight does.
+/// Writes the map's files, which appear together when all are whole, and reports it; returns the
+/// exit code as map_flight does.
 int write_map(AerialMap map, const FlightInput& input, const MapOptions& options,
               const CommonOptions& common);
 
-/// Tells how far the mapping has come, with one bar over all stages. Throws Interrupted.
+/// Tells how far the mapping has come, with one bar over all stages.
 MappingProgress mapping_progress(const CommonOptions& common);
 
 /// Throws Error (usage) where the map is finer than half a photo's pixel, or larger than the free

@@ -8,6 +8,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/input_file.hpp"
+#include "nadir/io/unfinished_folder.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -20,7 +21,9 @@ std::string head_of(const std::string& key) { return "nadir " NADIR_VERSION "\n"
 }  // namespace
 
 MappingWork::MappingWork(const fs::path& map)
-    : folder_(map.parent_path() / ("." + map.stem().string() + ".work")) {}
+    : folder_(map.parent_path() / ("." + map.stem().string() + ".work")) {
+  remove_all_abandoned(folder_);
+}
 
 fs::path MappingWork::file_of(const std::string& key) const {
   return folder_ / fmt::format("{:016x}", std::hash<std::string>{}(key));
@@ -47,6 +50,11 @@ void MappingWork::keep(const std::string& key, const std::string& bytes) {
   } catch (const Error&) {  // a full disk costs the resuming, not the map
     return;
   }
+}
+
+bool MappingWork::holds_something() const {
+  std::error_code missing;
+  return fs::directory_iterator(folder_, missing) != fs::directory_iterator();
 }
 
 void MappingWork::remove() const {

@@ -19,7 +19,8 @@ class MappingWork : public MappingStore {
 
   const std::filesystem::path& folder() const { return folder_; }
   int taken_up() const { return taken_up_; }  ///< values found so far
-  void remove() const;                        ///< the map is written
+  bool holds_something() const;
+  void remove() const;  ///< the map is written
 
  private:
   std::filesystem::path file_of(const std::string& key) const;

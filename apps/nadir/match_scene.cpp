@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "interrupt.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/report/figures.hpp"
 #include "stopwatch.hpp"
@@ -33,7 +34,7 @@ ScoredMatch match_and_draw(const MatchScene& scene, const MatchingOptions& optio
   const Template local = make_template(scene.local, options);
   ScoredMatch scored{options.score, options.effective_channel(), {}, 0.0, {}};
   const Stopwatch stopwatch;
-  scored.result = match(index, local, scene.choice.region);
+  scored.result = match(index, local, scene.choice.region, interrupt_token());
   scored.seconds = stopwatch.seconds();
   draw(folder, scene, scored);
   scored.result.volume = {};  // large, and drawn

@@ -134,7 +134,7 @@ int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
     return run_parsed(program, invocation, argc, argv);
   } catch (const Error& error) {
     return give_up(invocation, error.what(), static_cast<int>(error.kind()));
-  } catch (const Interrupted&) {
+  } catch (const Stopped&) {
     return give_up(invocation, "stopped by a signal", interrupted_exit_code(), false);
   } catch (const std::bad_alloc&) {
     return give_up(invocation, "out of memory; a smaller map or a coarser resolution needs less",

@@ -30,7 +30,7 @@ Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& c
   // CLI11 takes a vector from its end.
   program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   const int exit_code = invocation.action();
-  if (interrupted()) throw Interrupted{};
+  if (interrupted()) throw Stopped{};
   if (exit_code != static_cast<int>(ExitCode::kDone) &&
       exit_code != static_cast<int>(ExitCode::kDoubtful)) {
     throw Error(ErrorKind::kProcessing, "ended with exit code " + std::to_string(exit_code),

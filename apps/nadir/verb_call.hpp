@@ -11,7 +11,7 @@ namespace nadir::cli {
 
 /// Runs `nadir ARGUMENTS…` within this process, by the same code as from a shell, and gives its
 /// JSON document; threads and device are those of `common`. Throws what the verb throws,
-/// Interrupted where it was interrupted, Error (processing) where it ended with another exit code
+/// Stopped where it was interrupted, Error (processing) where it ended with another exit code
 /// than 0 and 5; the document's `doubtful` tells these two apart.
 Json call_verb(const std::vector<std::string>& arguments, const CommonOptions& common);
 

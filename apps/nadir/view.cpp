@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "add_verb.hpp"
+#include "interrupt.hpp"
 #include "verbs.hpp"
 #include "viewer/live_view.hpp"
 #include "viewer/server_options.hpp"
@@ -29,6 +30,7 @@ int run(const ViewOptions& options, const Invocation& invocation) {
     print(fmt::format("{} frames of {} at {}\nCtrl-C ends\n", view->size(), options.run.string(),
                       server.url()));
   }
+  interrupt_is_the_end(true);
   wait_for_interrupt();
   server.stop();
   return 0;  // it has no end of its own

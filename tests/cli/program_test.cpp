@@ -11,8 +11,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "interrupt.hpp"
 #include "nadir/core/error.hpp"
+#include "nadir/core/stop.hpp"
 #include "verdict.hpp"
 
 namespace nadir::cli {
@@ -64,7 +64,7 @@ TEST(Program, EveryExceptionBecomesOneDocument) {
                               "status", "a/b", std::make_error_code(std::errc::io_error));
                         }),
                         1, "a/b: ");
-  expect_error_document(end_of([](const auto&) -> int { throw Interrupted{}; }),
+  expect_error_document(end_of([](const auto&) -> int { throw Stopped{}; }),
                         interrupted_exit_code(), "stopped");
 }
 

@@ -78,8 +78,9 @@ TEST(Follow, GrowsWithEveryPhotoAndEndsAsTheWholeMap) {
   fs::create_directories(folder / "incoming");
   const fs::path map = folder / "live.tif";
   const fs::path update = folder / "live.update.json";
-  NadirProcess process(with_quick(
-      {"map", (folder / "incoming").string(), "-o", map.string(), "--follow", "--json"}));
+  NadirProcess process(
+      with_quick({"map", (folder / "incoming").string(), "-o", map.string(), "--follow", "--json",
+                  "--photos", std::to_string(photos.size())}));
   GeoReference first;
   for (std::size_t i = 0; i < photos.size(); ++i) {
     if (i == 3) {  // a transfer that stops halfway, and then goes on
@@ -105,7 +106,6 @@ TEST(Follow, GrowsWithEveryPhotoAndEndsAsTheWholeMap) {
     const double columns = (ortho.geo.west - first.west) / first.resolution;
     EXPECT_NEAR(columns, std::round(columns), 1e-3);
   }
-  process.interrupt();
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const Json last = Json::parse(read_file(update));
@@ -119,6 +119,25 @@ TEST(Follow, GrowsWithEveryPhotoAndEndsAsTheWholeMap) {
       nadir(with_quick({"map", (folder / "photos").string(), "-o", batch.string(), "-q"}));
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_GT(same_share(read_orthomosaic(map), read_orthomosaic(batch)), 0.999);
+}
+
+TEST(Follow, AnInterruptEndsItWithTheMapAsItStands) {
+  const fs::path folder = scratch_folder() / "follow_interrupted";
+  const auto photos = write_flight(folder / "photos", {.strips = 1, .photos = 2});
+  fs::create_directories(folder / "incoming");
+  const fs::path map = folder / "live.tif";
+  NadirProcess process(with_quick(
+      {"map", (folder / "incoming").string(), "-o", map.string(), "--follow", "--json"}));
+  for (const fs::path& photo : photos) drop(photo, folder / "incoming");
+  ASSERT_TRUE(wait_for(folder / "live.update.json", 2).is_object());
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(Json::parse(outcome.output),
+            (Json{{"map", map.string()}, {"photos", 2}, {"adjusted", false}}));
+  const Json last = Json::parse(read_file(folder / "live.update.json"));
+  EXPECT_EQ(last["final"], true);
+  EXPECT_EQ(last["width_px"], read_orthomosaic(map).width());
 }
 
 TEST(Follow, EndsByItselfAndSaysWhereNothingCame) {
