@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <stop_token>
 #include <thread>
 
 namespace nadir::cli {
@@ -46,6 +48,16 @@ TEST(EventHub, ClosingWakesAllAndEndsEverything) {
   hub.publish("frame", "too late");
   EXPECT_EQ(hub.newest(), 0U);
   EXPECT_TRUE(hub.closed());
+}
+
+TEST(EventHub, WhoWaitsCanBeStopped) {
+  const EventHub hub;
+  std::stop_source stop;
+  std::thread stopper([&] { stop.request_stop(); });
+  const auto started = std::chrono::steady_clock::now();
+  EXPECT_TRUE(hub.after(0, milliseconds(60'000), stop.get_token()).empty());
+  stopper.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - started, milliseconds(30'000));
 }
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include "viewer/http_server.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <functional>
 #include <latch>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -24,8 +28,9 @@ constexpr std::string_view kAskForMuch = "GET /much HTTP/1.1\r\nHost: 127.0.0.1\
 constexpr std::string_view kHalfHead = "GET / HTTP/1.1\r\nHost: 127.0";
 constexpr std::string_view kHalfBody =
     "POST /post HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 100\r\n\r\nhalf";
-constexpr std::size_t kMuch = 16U << 20U;  ///< more than the buffers of sockets hold
-constexpr milliseconds kLong(20'000);      ///< what a test waits before it fails
+constexpr std::size_t kMuch = 16U << 20U;         ///< more than the buffers of sockets hold
+constexpr milliseconds kBeforeTheDeadline(5000);  ///< of HttpLimits for a silent client
+constexpr milliseconds kLong(20'000);             ///< what a test waits before it fails
 
 /// A page, an answer of 16 MB that takes no memory, and one that takes a body.
 std::unique_ptr<HttpServer> server_with(const HttpLimits& limits) {
@@ -234,9 +239,30 @@ TEST(HttpServer, WhoHasWaitedLongestMakesRoom) {
     std::this_thread::sleep_for(milliseconds(20));
   }
   EXPECT_LT(seconds_for_the_page(port), 1.0);
-  EXPECT_EQ(silent[0].read_all(kLong), "");
+  EXPECT_EQ(silent[0].read_all(kBeforeTheDeadline), "");
   EXPECT_FALSE(silent[1].read_all(milliseconds(50)));
   EXPECT_FALSE(silent[2].read_all(milliseconds(50)));
+}
+
+TEST(HttpServer, WhoHasWaitedLongestMakesRoomWhereFilesRunOut) {
+  const auto server = server_with({});
+  const int port = server->start("127.0.0.1", 0);
+  std::vector<LoopbackClient> silent;
+  for (std::size_t i = 0; i < 3; ++i) {
+    silent.emplace_back(port);
+    ASSERT_TRUE(comes_true([&] { return server->connections() == i + 1; }));
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int lowest_unused = ::dup(0);
+  ::close(lowest_unused);
+  // One more file may be opened: the socket of the client that asks.
+  const rlimit fewer{static_cast<rlim_t>(lowest_unused) + 1, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &fewer), 0);
+  EXPECT_LT(seconds_for_the_page(port), 1.0);
+  EXPECT_EQ(silent[0].read_all(kBeforeTheDeadline), "");
+  EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
 }
 
 TEST(HttpServer, RefusesTheNewestWhereAllAreBeingAnswered) {
