@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nadir/core/error.hpp"
-#include "nadir/core/stop.hpp"
+#include "interrupt.hpp"
 #include "verdict.hpp"
 
 namespace nadir::cli {
