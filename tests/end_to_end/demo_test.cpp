@@ -53,8 +53,11 @@ class Demo : public ::testing::Test {
   }
   /// Whether a run on a site keeps both limits.
   static bool keeps_limits(const fs::path& site, const std::string& run) {
-    const Json judged = json_of({"localize", site.string(), "-o", (scratch_folder() / run).string(),
-                                 "--prior", "truth"})["evaluation"];
+    const Outcome outcome =
+        nadir({"localize", site.string(), "-o", (scratch_folder() / run).string(), "--prior",
+               "truth", "--json", "-q"});
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 5) << outcome.errors;
+    const Json judged = Json::parse(outcome.output, nullptr, false)["evaluation"];
     return judged["ape_trans_m"]["rmse"] <= kLargestRmse &&
            judged["yaw_deg"]["rmse"] <= kLargestYawRmse;
   }
@@ -66,6 +69,7 @@ TEST_F(Demo, FindsTheRobotFromRawSensors) {
   EXPECT_LE(methods["default"]["ape_rmse_m"], kLargestRmse);
   EXPECT_LE(methods["default"]["yaw_rmse_deg"], kLargestYawRmse);
   EXPECT_LT(methods["default"]["ape_rmse_m"], methods["ncc+PF"]["ape_rmse_m"]);
+  EXPECT_EQ(document()["doubtful"], Json::array()) << "what the other methods are is no doubt";
   EXPECT_EQ(document()["stand_ins"], Json::array());
   for (const char* stage : {"simulate", "map", "ground", "match", "localize", "eval", "report"}) {
     EXPECT_GT(document()["stages"][stage], 0.0) << stage;
@@ -104,6 +108,10 @@ TEST_F(Demo, ADroppedOdometryIsNoticed) {
   for (std::size_t i = half; i < odometry.size(); ++i) odometry[i].pose = odometry[half].pose;
   write_tum(site / "odometry.tum", odometry);
   EXPECT_FALSE(keeps_limits(site, "run_dropped"));
+  EXPECT_FALSE(
+      Json::parse(read_file(scratch_folder() / "run_dropped" / "manifest.json"))["doubtful"]
+          .empty())
+      << "nadir says so itself";
 }
 
 TEST(DemoPlan, SaysTheCommandsBeforehand) {

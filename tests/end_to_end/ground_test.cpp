@@ -37,7 +37,7 @@ TEST(Ground, SaysExactlyWhatItPromises) {
   EXPECT_EQ(keys_of(document),
             (std::vector<std::string>{"frames", "coverage_18m", "coverage_9m", "odd_even_zncc",
                                       "odd_even_shift_px", "height_disagreement_m", "ms_per_frame",
-                                      "warnings"}));
+                                      "warnings", "doubtful"}));
   EXPECT_EQ(keys_of(document["height_disagreement_m"]),
             (std::vector<std::string>{"median", "p90"}));
   EXPECT_EQ(document["frames"], kSmallDriveFrames);
@@ -50,7 +50,7 @@ TEST(Ground, SaysExactlyWhatItPromises) {
 
   const OrderedJson plain = ordered_json_of({"ground", small_drive().string(), "-o", site});
   EXPECT_EQ(keys_of(plain), (std::vector<std::string>{"frames", "coverage_18m", "coverage_9m",
-                                                      "ms_per_frame", "warnings"}));
+                                                      "ms_per_frame", "warnings", "doubtful"}));
 }
 
 TEST(Ground, WritesASiteThatLocalizes) {
