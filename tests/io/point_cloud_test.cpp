@@ -92,6 +92,40 @@ TEST(PointCloud, ReadsAsciiAndForeignFields) {
   expect_points(read_point_cloud(folder / "a.ply"));
 }
 
+/// A point whose declared size is more than the file, or more than a number can say.
+TEST(PointCloud, RefusesAPcdWhoseCountsLie) {
+  const TemporaryFolder folder;
+  const auto pcd = [&](const std::string& counts, const std::string& points,
+                       const std::string& data) {
+    write_text(folder / "a.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT " + counts +
+                                     "\nPOINTS " + points + "\nDATA " + data);
+    return folder / "a.pcd";
+  };
+  const std::string body(64, 'x');
+  // The sizes of these add up to 0, and to 8, where they overflow.
+  for (const char* counts : {"1152921504606846976 1152921504606846976 2305843009213693952",
+                             "1 1099511627776 4611684918915760129", "65536 1 1", "1 0 1"}) {
+    for (const std::string data : {"binary\n", "binary_compressed\n", "ascii\n"}) {
+      expect_error(ErrorKind::kInput, {"a.pcd", "declares more than"},
+                   [&] { read_point_cloud(pcd(counts, "3", data + body)); });
+    }
+  }
+  // 12 bytes a point: the product of size and number is 0.
+  expect_error(ErrorKind::kInput, {"a.pcd", "ends before the 4611686018427387904 points"}, [&] {
+    read_point_cloud(pcd("1 1 1", "4611686018427387904", "binary_compressed\n" + body));
+  });
+  std::string unpacked = "binary_compressed\n";
+  append(unpacked, std::uint32_t{25});
+  append(unpacked, std::uint32_t{0xfffffff0});
+  expect_error(ErrorKind::kInput, {"a.pcd", "4294967280 bytes out of 25 compressed ones"},
+               [&] { read_point_cloud(pcd("1 1 1", "2", unpacked + body)); });
+  expect_error(ErrorKind::kInput, {"a.pcd", "type and size that do not exist"}, [&] {
+    write_text(folder / "a.pcd",
+               "FIELDS x y z\nSIZE 2 4 4\nTYPE F F F\nPOINTS 1\nDATA binary\n" + body);
+    read_point_cloud(folder / "a.pcd");
+  });
+}
+
 TEST(PointCloud, ReadsBinaryOfEitherOrderAndType) {
   const TemporaryFolder folder;
   std::string pcd =

@@ -24,6 +24,12 @@ bool take(std::string_view& bytes, std::size_t count, T* values) {
   return true;
 }
 
+/// Whether the bytes are `count` pieces of this size; the count comes from a file, and its product
+/// could overflow.
+bool holds_exactly(std::string_view bytes, std::uint64_t count, std::size_t size) {
+  return bytes.size() % size == 0 && bytes.size() / size == count;
+}
+
 }  // namespace
 
 std::string to_bytes(const PhotoFeatures& features) {
@@ -41,7 +47,7 @@ std::optional<PhotoFeatures> features_from(std::string_view bytes) {
   PhotoFeatures features;
   std::uint64_t count = 0;
   if (!take(bytes, 1, &count) || !take(bytes, 1, &features.sharpness)) return std::nullopt;
-  if (bytes.size() != count * (sizeof(Feature) + kLength * sizeof(float))) return std::nullopt;
+  if (!holds_exactly(bytes, count, sizeof(Feature) + kLength * sizeof(float))) return std::nullopt;
   features.points.resize(count);
   features.descriptors.create(static_cast<int>(count), kLength, CV_32F);
   if (!take(bytes, count, features.points.data()) ||
@@ -69,7 +75,7 @@ std::optional<VerifiedPair> pair_from(std::string_view bytes) {
   std::uint64_t count = 0;
   if (!take(bytes, 1, &count) || !take(bytes, 1, &pair.matches) ||
       !take(bytes, 1, &pair.epipolar_inliers) || !take(bytes, 1, &pair.homography_inliers) ||
-      bytes.size() != count * 2 * sizeof(int))
+      !holds_exactly(bytes, count, 2 * sizeof(int)))
     return std::nullopt;
   pair.inliers.resize(count);
   for (auto& [first, second] : pair.inliers)

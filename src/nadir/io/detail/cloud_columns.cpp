@@ -91,6 +91,26 @@ double text_number(std::string_view text, const std::string& where) {
 
 }  // namespace
 
+void check_fields(const std::filesystem::path& path, const std::vector<CloudField>& fields) {
+  const auto is_sound = [](const CloudField& field) {
+    const bool floating = field.size == 4 || field.size == 8;
+    const bool whole = floating || field.size == 1 || field.size == 2;
+    return (field.kind == 'F' ? floating : whole && (field.kind == 'I' || field.kind == 'U')) &&
+           field.count >= 1 && field.count <= kMostValuesOfPoint;
+  };
+  const bool sound = fields.size() <= kMostFields && std::ranges::all_of(fields, is_sound);
+  std::size_t values = 0;
+  if (sound) {
+    for (const CloudField& field : fields) values += field.count;
+  }
+  if (sound && values <= kMostValuesOfPoint) return;
+  throw input_error(path,
+                    fmt::format("its header declares more than {} fields or {} values a point, or "
+                                "values of a type and size that do not exist",
+                                kMostFields, kMostValuesOfPoint),
+                    "the header is damaged: copy the file again");
+}
+
 std::size_t point_size(const std::vector<CloudField>& fields) {
   std::size_t size = 0;
   for (const CloudField& field : fields) size += field.size * field.count;
@@ -100,8 +120,9 @@ std::size_t point_size(const std::vector<CloudField>& fields) {
 std::vector<CloudColumn> interleaved(const std::vector<CloudField>& fields) {
   std::vector<CloudColumn> columns;
   std::size_t begin = 0;
+  const std::size_t stride = point_size(fields);
   for (const CloudField& field : fields) {
-    columns.push_back({field, begin, point_size(fields)});
+    columns.push_back({field, begin, stride});
     begin += field.size * field.count;
   }
   return columns;

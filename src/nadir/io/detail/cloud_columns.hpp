@@ -43,8 +43,22 @@ std::vector<LidarPoint> points_of_text(const std::filesystem::path& path, std::s
 /// Points one after another, each of all fields in turn.
 std::vector<CloudColumn> interleaved(const std::vector<CloudField>& fields);
 
+/// What a header may declare of one point. Real ones have some tens of fields; PCL's longest, a
+/// feature histogram, has 640 numbers.
+inline constexpr std::size_t kMostFields = 1024;
+inline constexpr std::size_t kMostValuesOfPoint = 65'536;
+
+/// Throws Error (input) where the fields are more than that, or one of them has no values or a type
+/// and size that do not exist. What passes has a point_size() that cannot overflow.
+void check_fields(const std::filesystem::path& path, const std::vector<CloudField>& fields);
+
 /// Bytes of one point.
 std::size_t point_size(const std::vector<CloudField>& fields);
+
+/// Whether `bytes` hold `count` points of `size` bytes; the product is never formed.
+inline bool holds_points(std::size_t bytes, std::size_t size, std::size_t count) {
+  return size > 0 && bytes / size >= count;
+}
 
 /// Drops and counts the points that are not finite or lie in the sensor. Throws Error (input) where
 /// none is left.

@@ -55,14 +55,11 @@ PcdHeader read_pcd_header(const std::filesystem::path& path, std::string_view by
                   [&](const std::string&, const auto& words) { take_line(path, words, header); });
     header.end = line_end + 1;
   }
-  bool sound = !header.data.empty() && header.points > 0;
-  for (const CloudField& field : header.fields) {
-    sound = sound && field.size > 0 && field.size <= 8 && field.count > 0;
-  }
-  if (!sound) {
+  if (header.data.empty() || header.points == 0 || header.fields.empty()) {
     throw input_error(path, "has no complete PCD header (FIELDS, SIZE, TYPE, POINTS, DATA)",
                       "give a PCD file of version 0.7");
   }
+  check_fields(path, header.fields);
   return header;
 }
 
@@ -113,11 +110,21 @@ Error cut_off(const std::filesystem::path& path, std::size_t points) {
 std::vector<LidarPoint> compressed_points(const std::filesystem::path& path, std::string_view body,
                                           const PcdHeader& header) {
   constexpr std::size_t kSizes = 8;
+  constexpr std::size_t kMostUnpacked = 88;  // bytes out of one: three give at most 264
   if (body.size() < kSizes) throw cut_off(path, header.points);
   const std::size_t packed = little_endian(body, 0);
   const std::size_t size = little_endian(body, 4);
-  if (body.size() < kSizes + packed || size < header.points * point_size(header.fields)) {
+  if (body.size() - kSizes < packed ||
+      !holds_points(size, point_size(header.fields), header.points)) {
     throw cut_off(path, header.points);
+  }
+  if (size / kMostUnpacked > packed) {
+    throw input_error(
+        path,
+        fmt::format("its header declares {} bytes out of {} compressed ones, which is "
+                    "more than LZF can hold",
+                    size, packed),
+        "copy it again");
   }
   const std::string bytes = unpack_lzf(body.substr(kSizes, packed), size);
   if (bytes.empty()) throw input_error(path, "its compressed data is damaged", "copy it again");
@@ -141,7 +148,9 @@ std::vector<LidarPoint> read_pcd(const std::filesystem::path& path, std::string_
     throw input_error(path, "its DATA is '" + header.data + "'",
                       "give ascii, binary or binary_compressed");
   }
-  if (body.size() / point_size(header.fields) < header.points) throw cut_off(path, header.points);
+  if (!holds_points(body.size(), point_size(header.fields), header.points)) {
+    throw cut_off(path, header.points);
+  }
   return points_of_columns(path, body, interleaved(header.fields), header.points,
                            ByteOrder::kLittle);
 }

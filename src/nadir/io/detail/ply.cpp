@@ -100,6 +100,7 @@ PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view by
   if (!bytes.starts_with("ply") || !ended || reader.header().fields.empty()) {
     throw input_error(path, "has no complete PLY header with vertices", "copy it again");
   }
+  check_fields(path, reader.header().fields);
   reader.header().end = begin;
   return std::move(reader.header());
 }
@@ -115,7 +116,7 @@ std::vector<LidarPoint> read_ply(const std::filesystem::path& path, std::string_
     throw input_error(path, "its format is '" + header.format + "'",
                       "give ascii, binary_little_endian or binary_big_endian");
   }
-  if (body.size() / point_size(header.fields) < header.points) {
+  if (!holds_points(body.size(), point_size(header.fields), header.points)) {
     throw input_error(path, fmt::format("ends before the {} points of its header", header.points),
                       "copy it again");
   }
