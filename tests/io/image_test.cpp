@@ -122,6 +122,32 @@ TEST(Image, RefusesADamagedPng) {
                [&] { read_image(folder / "image.png"); });
 }
 
+/// No room is made for what the bytes cannot hold.
+TEST(Image, RefusesASizeThatTheFileCannotHold) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] :
+       {std::pair{"a.pgm", std::string("P5\n# a comment\n30000 30000\n255\nabc")},
+        std::pair{"b.pgm", std::string("P5\n30000 99999999999\n255\nabc")}}) {
+    test::write_text(folder / name, bytes);
+    expect_error(ErrorKind::kInput, {name, "its header declares 30000 x"},
+                 [&] { read_image(folder / name); });
+  }
+  write_png(folder / "image.png", random_raster(40, 30, 1, 9));
+  const std::string png = test::read_text(folder / "image.png");
+  test::write_text(folder / "image.png",
+                   png.substr(0, 16) + std::string("\0\0\x60\0\0\0\x60\0", 8) + png.substr(24));
+  expect_error(ErrorKind::kInput, {"image.png", "24576 x 24576 pixels", "cannot hold"},
+               [&] { read_image(folder / "image.png"); });
+  cv::imwrite(folder / "image.jpg", cv::Mat(30, 40, CV_8UC1, cv::Scalar(9)));
+  std::string jpeg = test::read_text(folder / "image.jpg");
+  const std::size_t frame = jpeg.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  jpeg.replace(frame + 5, 4, "\x60\x01\x60\x01");
+  test::write_text(folder / "image.jpg", jpeg);
+  expect_error(ErrorKind::kInput, {"image.jpg", "24577 x 24577 pixels", "cannot hold"},
+               [&] { read_image(folder / "image.jpg"); });
+}
+
 TEST(Image, ReadsProgressiveJpeg) {
   const TemporaryFolder folder;
   cv::imwrite(folder / "image.jpg", cv::Mat(50, 60, CV_8UC3, cv::Scalar(1, 2, 3)),

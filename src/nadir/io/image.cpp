@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -27,6 +29,9 @@ cv::Mat decode(const std::filesystem::path& path, std::string& bytes) {
   constexpr int kStoredPixels =
       cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
   try {
+    if (bytes.size() > std::numeric_limits<int>::max()) {
+      throw input_error(path, "the file is larger than 2 GiB", "cut the image into parts");
+    }
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     return cv::imdecode(encoded, kStoredPixels);
   } catch (const cv::Exception& exception) {
@@ -60,6 +65,7 @@ Raster<std::uint8_t> read_image(const std::filesystem::path& path) {
 Raster<std::uint8_t> decode_image(const std::filesystem::path& path, std::string bytes) {
   silence_opencv();
   check_image_is_whole(path, bytes);
+  check_image_size(path, bytes);
   const cv::Mat decoded = decode(path, bytes);
   if (decoded.empty()) {
     throw input_error(path, "is not an image that can be decoded",

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/io/image_file_check.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "nadir/io/input_file.hpp"
 
@@ -67,7 +71,122 @@ bool is_whole_jpeg(std::string_view bytes) {
   return false;
 }
 
+/// What a header says, and how many pixels a byte of this format can hold at most.
+struct DeclaredSize {
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+  std::uint64_t pixels_of_byte = 0;
+};
+
+/// IHDR is the first chunk. DEFLATE packs a byte of zeros, eight pixels of one bit, 1032 times.
+std::optional<DeclaredSize> png_size(std::string_view bytes) {
+  constexpr std::size_t kWidth = 16;
+  if (bytes.size() < kWidth + 8) return std::nullopt;
+  return DeclaredSize{big_endian(bytes, kWidth, 4), big_endian(bytes, kWidth + 4, 4), 8 * 1032};
+}
+
+/// Of the first start-of-frame segment. A block of 8 x 8 pixels takes a bit and more.
+std::optional<DeclaredSize> jpeg_size(std::string_view bytes) {
+  std::size_t position = next_marker(bytes, 0);
+  while (position != std::string_view::npos && position + 8 <= bytes.size()) {
+    const std::uint8_t marker = byte_at(bytes, position);
+    const bool frame =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (frame) {
+      return DeclaredSize{big_endian(bytes, position + 6, 2), big_endian(bytes, position + 4, 2),
+                          8 * 64};
+    }
+    const bool bare = marker >= 0xd0 && marker <= 0xd8;
+    position = next_marker(bytes, position + 1 + (bare ? 0 : big_endian(bytes, position + 1, 2)));
+  }
+  return std::nullopt;
+}
+
+/// An unsigned number of `count` bytes in the order of a TIFF; 0 beyond the end.
+std::uint64_t tiff_number(std::string_view bytes, std::uint64_t position, int count) {
+  const auto size = static_cast<std::uint64_t>(count);
+  if (bytes.size() < size || position > bytes.size() - size) return 0;
+  const bool little = bytes.starts_with("II");
+  std::uint64_t value = 0;
+  for (std::uint64_t i = 0; i < size; ++i) {
+    value = value << 8U | byte_at(bytes, position + (little ? size - 1 - i : i));
+  }
+  return value;
+}
+
+/// Tags 256 and 257 of the first directory; 16 and 32 bits wide, in a BigTIFF 64. Fax compression
+/// codes a white line of a page in some bits.
+std::optional<DeclaredSize> tiff_size(std::string_view bytes) {
+  constexpr std::uint64_t kBig = 43;
+  const bool big = tiff_number(bytes, 2, 2) == kBig;
+  const std::uint64_t directory = big ? tiff_number(bytes, 8, 8) : tiff_number(bytes, 4, 4);
+  const std::uint64_t entries = tiff_number(bytes, directory, big ? 8 : 2);
+  const std::uint64_t entry_size = big ? 20 : 12;
+  DeclaredSize size{0, 0, 65'536};
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(entries, 65'535); ++i) {
+    const std::uint64_t entry = directory + (big ? 8 : 2) + i * entry_size;
+    if (entry >= bytes.size()) break;
+    const std::uint64_t tag = tiff_number(bytes, entry, 2);
+    const std::uint64_t type = tiff_number(bytes, entry + 2, 2);
+    const int width = type == 3 ? 2 : type == 16 ? 8 : 4;
+    const std::uint64_t value = tiff_number(bytes, entry + (big ? 12 : 8), width);
+    if (tag == 256) size.width = value;
+    if (tag == 257) size.height = value;
+  }
+  return size.width > 0 && size.height > 0 ? std::optional(size) : std::nullopt;
+}
+
+/// P1 to P6: two numbers behind white space and comments. A bit a pixel is the least.
+std::optional<DeclaredSize> pnm_size(std::string_view bytes) {
+  DeclaredSize size{0, 0, 8};
+  std::size_t position = 2;
+  for (std::uint64_t* side : {&size.width, &size.height}) {
+    while (position < bytes.size()) {
+      position = std::min(bytes.find_first_not_of(" \t\r\n", position), bytes.size());
+      if (position >= bytes.size() || bytes[position] != '#') break;
+      position = std::min(bytes.find('\n', position), bytes.size());
+    }
+    const char* begin = bytes.data() + position;
+    const auto [end, error] = std::from_chars(begin, bytes.data() + bytes.size(), *side);
+    if (error != std::errc{}) return std::nullopt;
+    position += static_cast<std::size_t>(end - begin);
+  }
+  return size;
+}
+
+std::optional<DeclaredSize> declared_size(std::string_view bytes) {
+  if (bytes.starts_with(kPngSignature)) return png_size(bytes);
+  if (bytes.starts_with(kJpegSignature)) return jpeg_size(bytes);
+  if (bytes.starts_with("II") || bytes.starts_with("MM")) return tiff_size(bytes);
+  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
+    return pnm_size(bytes);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+void check_image_size(const std::filesystem::path& path, std::string_view bytes) {
+  constexpr std::uint64_t kSmall = std::uint64_t{1} << 20U;  // pixels: not worth an argument
+  const auto size = declared_size(bytes);
+  if (!size || size->width == 0 || size->height == 0) {
+    throw input_error(path, "is not an image that can be decoded",
+                      "give a PNG, JPEG or TIFF file, or copy it again if it is damaged");
+  }
+  const std::string sides =
+      std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels";
+  if (size->width > kMostImagePixels / size->height) {
+    throw input_error(path, "its header declares " + sides + ", which is too large",
+                      "cut it into parts, or copy it again if it is damaged");
+  }
+  const std::uint64_t pixels = size->width * size->height;
+  if (pixels > kSmall && pixels / size->pixels_of_byte > bytes.size()) {
+    throw input_error(path,
+                      "its header declares " + sides + ", which " + std::to_string(bytes.size()) +
+                          " bytes cannot hold",
+                      "copy or download it again");
+  }
+}
 
 void check_image_is_whole(const std::filesystem::path& path, std::string_view bytes) {
   const bool cut_off = (bytes.starts_with(kPngSignature) && !is_whole_png(bytes)) ||
