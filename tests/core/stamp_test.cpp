@@ -25,8 +25,9 @@ TEST(Stamp, ReadsWhatPeopleWrite) {
 }
 
 TEST(Stamp, RefusesTheRest) {
-  for (const char* text : {"", "-", ".", "abc", "1.2.3", "1 2", "--1", "1e", "nan", "99999999999",
-                           "9999999999999999999999"}) {
+  for (const char* text :
+       {"", "-", ".", "abc", "1.2.3", "1 2", "--1", "1e", "nan", "99999999999", "4600000001",
+        "-4600000001", "4.7e9", "-4.7e9", "9999999999999999999999"}) {
     EXPECT_FALSE(parse_stamp(text)) << text;
   }
 }

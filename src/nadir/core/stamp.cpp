@@ -2,12 +2,12 @@
 #include "nadir/core/stamp.hpp"
 
 #include <charconv>
-#include <limits>
 
 namespace nadir {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr std::int64_t kFarthestSeconds = kFarthestStampNs / kNanosecondsPerSecond;
 constexpr std::size_t kFractionDigits = 9;
 
 std::optional<std::int64_t> parse_digits(std::string_view digits) {
@@ -23,7 +23,7 @@ std::optional<Stamp> parse_scientific(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  if (!(value > -9e9 && value < 9e9)) return std::nullopt;
+  if (!(value > -kFarthestSeconds && value < kFarthestSeconds)) return std::nullopt;
   return Stamp{static_cast<std::int64_t>(value * 1e9 + (value < 0 ? -0.5 : 0.5))};
 }
 
@@ -43,9 +43,7 @@ std::optional<Stamp> parse_stamp(std::string_view seconds) {
 
   const auto whole = whole_text.empty() ? std::optional<std::int64_t>{0} : parse_digits(whole_text);
   const auto fraction = parse_digits(fraction_text);
-  constexpr std::int64_t kLargest =
-      std::numeric_limits<std::int64_t>::max() / kNanosecondsPerSecond - 1;
-  if (!whole || !fraction || *whole > kLargest) return std::nullopt;
+  if (!whole || !fraction || *whole >= kFarthestSeconds) return std::nullopt;
   const std::int64_t value = *whole * kNanosecondsPerSecond + *fraction;
   return Stamp{negative ? -value : value};
 }

@@ -18,8 +18,17 @@ struct Stamp {
   double seconds() const { return static_cast<double>(nanoseconds) * 1e-9; }
 };
 
+/// The farthest that a stamp of a file may be from its epoch, 146 years: the difference of two such
+/// stamps is a number of nanoseconds, too.
+inline constexpr std::int64_t kFarthestStampNs = 4'600'000'000'000'000'000;
+
+/// Whether a stamp that was not parsed here is as near.
+constexpr bool is_near_epoch(Stamp stamp) {
+  return stamp.nanoseconds >= -kFarthestStampNs && stamp.nanoseconds <= kFarthestStampNs;
+}
+
 /// Parses decimal seconds ("12", "-0.5", "1403636579.763555527"), digits beyond nanoseconds cut
-/// off; nothing where the text is not such a number or does not fit.
+/// off; nothing where the text is not such a number or lies beyond kFarthestStampNs.
 std::optional<Stamp> parse_stamp(std::string_view seconds);
 
 /// Decimal seconds with nine places, as TUM files carry them.

@@ -50,7 +50,7 @@ void note_gap(Drive& drive) {
   std::ranges::sort(sorted);
   const std::int64_t median = sorted[sorted.size() / 2];
   const auto longest = std::ranges::max_element(steps);
-  const auto gaps = std::ranges::count_if(steps, [&](auto step) { return step > 2 * median; });
+  const auto gaps = std::ranges::count_if(steps, [&](auto step) { return step / 2 > median; });
   if (gaps == 0) return;
   const auto before = static_cast<std::size_t>(longest - steps.begin());
   drive.notes.push_back(fmt::format(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -116,10 +117,28 @@ void for_each_line(
 
 double number_in_file(std::string_view text, const std::string& what, const std::string& where) {
   try {
-    return parse_number(text, what);
+    return checked_number(parse_number(text, what), what, where);
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInput) throw;
     throw Error(ErrorKind::kInput, error.what(), where, "correct the line");
   }
+}
+
+double checked_number(double value, const std::string& what, const std::string& where) {
+  if (std::abs(value) <= kLargestNumber) return value;
+  throw Error(ErrorKind::kInput, what + " is " + to_text(value) + ", which cannot be", where,
+              "correct it");
+}
+
+int checked_integer(double value, const std::string& what, const std::string& where, int lowest,
+                    int highest) {
+  if (value >= lowest && value <= highest && value == std::floor(value)) {
+    return static_cast<int>(value);
+  }
+  throw Error(ErrorKind::kInput,
+              what + " is " + to_text(value) + ", a whole number from " + std::to_string(lowest) +
+                  " to " + std::to_string(highest) + " is expected",
+              where, "correct it");
 }
 
 }  // namespace nadir

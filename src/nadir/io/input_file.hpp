@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -43,7 +44,38 @@ void for_each_line(
     const std::filesystem::path& path, std::string_view text,
     const std::function<void(const std::string&, const std::vector<std::string_view>&)>& visit);
 
-/// A finite number out of a file. Throws Error (input) that names the place and what it should be.
+/// The largest number that a file may give: no quantity is near it, and products of several such
+/// numbers are finite.
+inline constexpr double kLargestNumber = 1e50;
+/// Of the numbers that describe an image, the largest; no format has longer sides.
+inline constexpr int kLargestSide = 1'000'000;
+
+/// A number out of a file, finite and within kLargestNumber. Throws Error (input) that names the
+/// place and what it should be.
 double number_in_file(std::string_view text, const std::string& what, const std::string& where);
+/// The same for a number that a library has parsed.
+double checked_number(double value, const std::string& what, const std::string& where);
+
+/// A whole number out of a file, from `lowest` to `highest`. Throws Error (input).
+int checked_integer(double value, const std::string& what, const std::string& where, int lowest,
+                    int highest);
+/// The width or height of an image, 0 .. kLargestSide; 0 where the file leaves it open. Throws
+/// Error (input).
+inline int checked_side(double pixels, const std::string& what, const std::string& where) {
+  return checked_integer(pixels, what, where, 0, kLargestSide);
+}
+
+/// What `read` returns; what else than an Error a library throws on the way becomes an Error
+/// (input) that names the file: none of its exceptions is a caller's concern.
+template <class Read>
+auto reading(const std::filesystem::path& path, const std::string& problem, const Read& read) {
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& exception) {
+    throw input_error(path, problem + ": " + exception.what(), "correct the file or copy it again");
+  }
+}
 
 }  // namespace nadir

@@ -59,23 +59,7 @@ double number_at(const YAML::Node& root, const std::string& key, const path& fil
   return text.empty() ? 0.0 : number_in_file(text, key, place_of(root[key], file));
 }
 
-template <class Sensor>
-void emit(YAML::Emitter& out, const char* key, const Transform3<frames::Robot, Sensor>& pose) {
-  const Eigen::Vector3d& t = pose.translation;
-  const Eigen::Quaterniond& q = pose.rotation;
-  out << YAML::Key << key << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "translation_m" << YAML::Value << YAML::Flow << YAML::BeginSeq;
-  for (const double value : {t.x(), t.y(), t.z()}) out << to_text(value);
-  out << YAML::EndSeq << YAML::Key << "rotation_xyzw" << YAML::Value << YAML::Flow
-      << YAML::BeginSeq;
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) out << to_text(value);
-  out << YAML::EndSeq << YAML::EndMap;
-}
-
-}  // namespace
-
-Mounting read_mounting(const path& file) {
-  const YAML::Node root = load_yaml(file, ErrorKind::kInput);
+Mounting mounting_of(const YAML::Node& root, const path& file) {
   check_keys(root, kMountingKeys, file);
   Mounting mounting;
   if (root["robot_from_lidar"]) {
@@ -92,6 +76,26 @@ Mounting read_mounting(const path& file) {
                                                 radians(number_at(root, "camera_pitch_deg", file)));
   }
   return mounting;
+}
+
+template <class Sensor>
+void emit(YAML::Emitter& out, const char* key, const Transform3<frames::Robot, Sensor>& pose) {
+  const Eigen::Vector3d& t = pose.translation;
+  const Eigen::Quaterniond& q = pose.rotation;
+  out << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "translation_m" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const double value : {t.x(), t.y(), t.z()}) out << to_text(value);
+  out << YAML::EndSeq << YAML::Key << "rotation_xyzw" << YAML::Value << YAML::Flow
+      << YAML::BeginSeq;
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) out << to_text(value);
+  out << YAML::EndSeq << YAML::EndMap;
+}
+
+}  // namespace
+
+Mounting read_mounting(const path& file) {
+  return reading_yaml(file, ErrorKind::kInput,
+                      [&](const YAML::Node& root) { return mounting_of(root, file); });
 }
 
 void write_mounting(const path& file, const Mounting& mounting) {

@@ -22,7 +22,8 @@ std::optional<double> number(const std::string& text) {
   if (begin == std::string::npos) return std::nullopt;
   double value = 0.0;
   const auto result = std::from_chars(text.data() + begin, text.data() + text.size(), value);
-  return result.ec == std::errc{} && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  const bool sound = result.ec == std::errc{} && std::abs(value) <= kLargestNumber;
+  return sound ? std::optional(value) : std::nullopt;
 }
 
 /// EXIF as GDAL gives it: "EXIF_<name>" among the metadata of a JPEG, in a domain of its own in a
@@ -87,7 +88,7 @@ std::string read_head(const std::filesystem::path& path) {
 std::optional<double> decimal_degrees(const std::array<double, 3>& parts,
                                       const std::string& reference) {
   const double value = parts[0] + parts[1] / 60.0 + parts[2] / 3600.0;
-  if (!std::isfinite(value) || value > 180.0) return std::nullopt;
+  if (!(std::abs(value) <= 180.0)) return std::nullopt;
   return reference.starts_with('S') || reference.starts_with('W') ? -value : value;
 }
 
@@ -106,9 +107,9 @@ std::array<double, 3> three_numbers(const std::string& text) {
 /// The altitude: below the reference where it says 1 (or 3), above the ellipsoid where it says 2 or
 /// 3 (EXIF 3.0).
 void set_altitude(GeodeticPosition& position, double metres, const std::string& reference) {
-  const int code = static_cast<int>(number(reference.substr(reference.find('x') + 1)).value_or(0));
-  position.altitude_m = code % 2 == 1 ? -metres : metres;
-  position.ellipsoidal = code >= 2;
+  const double code = number(reference.substr(reference.find('x') + 1)).value_or(0.0);
+  position.altitude_m = code == 1.0 || code == 3.0 ? -metres : metres;
+  position.ellipsoidal = code == 2.0 || code == 3.0;
   // Receivers that have no height yet write 0.
   position.altitude_known = std::isfinite(metres) && metres != 0.0;
   if (!position.altitude_known) position.altitude_m = 0.0;

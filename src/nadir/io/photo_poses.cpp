@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nadir/io/photo_poses.hpp"
 
+#include <cmath>
+
 #include "nadir/io/detail/pose_formats.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -22,12 +24,32 @@ PhotoPose from_earth(const PhotoPose& pose, const Eigen::Vector3d& geocentric_ce
   result.map_from_camera.rotation =
       (Eigen::Quaterniond(map_from_frame) * pose.map_from_camera.rotation).normalized();
   result.flown_in_readout = map_from_frame * pose.flown_in_readout;
+  if (!result.map_from_camera.is_finite()) {
+    throw Error(ErrorKind::kInput, "the pose of photo '" + pose.name + "' is no place on the Earth",
+                {}, "check the reference point and the translation of the file of poses");
+  }
   return result;
 }
 
-}  // namespace
+/// What every format must give, whatever its own reader makes of it: cameras that see, and
+/// rotations that are some. A zero quaternion comes through normalized() as it is.
+void check_pose(const PhotoPose& pose, const std::filesystem::path& path) {
+  constexpr double kAllowed = 1e-2;
+  const CameraModel& camera = pose.camera;
+  const Eigen::Quaterniond& q = pose.map_from_camera.rotation;
+  std::string problem;
+  if (!(camera.fx > 0.0) || !(camera.fy > 0.0)) {
+    problem = "the focal length of its camera is not above 0";
+  } else if (!pose.map_from_camera.is_finite() || !(std::abs(q.norm() - 1.0) <= kAllowed)) {
+    problem = "its pose is not finite, or its rotation is none";
+  } else {
+    return;
+  }
+  throw input_error(path, "photo '" + pose.name + "': " + problem,
+                    "export the poses again, or leave the photo out");
+}
 
-ImportedPoses read_photo_poses(const std::filesystem::path& path) {
+ImportedPoses read_by_what_is_there(const std::filesystem::path& path) {
   if (is_folder(path)) {
     if (is_file(path / "images.txt")) return read_colmap_model(path);
     if (is_file(path / "reconstruction.json")) return read_opensfm(path / "reconstruction.json");
@@ -40,6 +62,14 @@ ImportedPoses read_photo_poses(const std::filesystem::path& path) {
   if (path.extension() == ".json") return read_opensfm(path);
   throw input_error(path, "is no known list of poses",
                     "give a COLMAP text model, reconstruction.json, cameras.xml or MAP.poses.json");
+}
+
+}  // namespace
+
+ImportedPoses read_photo_poses(const std::filesystem::path& path) {
+  ImportedPoses imported = read_by_what_is_there(path);
+  for (const PhotoPose& pose : imported.poses) check_pose(pose, path);
+  return imported;
 }
 
 std::vector<PhotoPose> in_map_frame(const ImportedPoses& imported, const MetricFrame& frame) {

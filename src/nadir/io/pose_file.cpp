@@ -63,10 +63,11 @@ FilePose euroc_pose(const std::string& where, const Words& words) {
   Stamp stamp;
   const auto [end, error] =
       std::from_chars(words[0].data(), words[0].data() + words[0].size(), stamp.nanoseconds);
-  if (error != std::errc{} || end != words[0].data() + words[0].size()) {
-    throw line_error(where,
-                     fmt::format("timestamp is '{}', which is not whole nanoseconds", words[0]),
-                     "correct the line");
+  if (error != std::errc{} || end != words[0].data() + words[0].size() || !is_near_epoch(stamp)) {
+    throw line_error(
+        where,
+        fmt::format("timestamp is '{}', which is not whole nanoseconds of this age", words[0]),
+        "correct the line");
   }
   const std::vector<double> v = numbers_of(words, 1, 7, where);
   return {stamp, {unit_quaternion(v[4], v[5], v[6], v[3], where), {v[0], v[1], v[2]}}, where};

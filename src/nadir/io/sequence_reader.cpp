@@ -132,6 +132,28 @@ std::optional<OdomPose2> odometry_at(const Odometry& odometry, Stamp stamp) {
   return nearest;
 }
 
+Sequence sequence_of(const YAML::Node& root, const Index& index) {
+  check_keys(root, kSequenceKeys, index.file);
+  if (const int version = integer_at(root, "version", index);
+      version != sequence_format::kVersion) {
+    throw index.error(root["version"], fmt::format("format version {} is not known", version),
+                      fmt::format("this program reads version {}", sequence_format::kVersion));
+  }
+  Sequence sequence;
+  sequence.folder = index.folder;
+  sequence.name = text_at(root, "name", index.file);
+  if (sequence.name.empty()) throw index.error(root, "the site has no 'name'", "add one");
+  sequence.map = file_at(root, "map", index);
+  sequence.surface = file_at(root, "surface", index);
+  sequence.calibration = file_at(root, "calibration", index);
+  sequence.local_maps = read_local_maps(root["local_maps"], index);
+  if (const auto file = file_at(root, "odometry", index)) {
+    sequence.odometry = read_tum_odometry(*file);
+  }
+  if (const auto file = file_at(root, "truth", index)) sequence.truth = read_tum(*file);
+  return sequence;
+}
+
 }  // namespace
 
 Sequence read_sequence(const path& folder) {
@@ -148,26 +170,8 @@ Sequence read_sequence(const path& folder) {
     throw input_error(folder, "holds no sequence.yaml",
                       "it is no sequence folder, or its conversion did not finish; convert again");
   }
-  const YAML::Node root = load_yaml(index.file, ErrorKind::kInput);
-  check_keys(root, kSequenceKeys, index.file);
-  if (const int version = integer_at(root, "version", index);
-      version != sequence_format::kVersion) {
-    throw index.error(root["version"], fmt::format("format version {} is not known", version),
-                      fmt::format("this program reads version {}", sequence_format::kVersion));
-  }
-  Sequence sequence;
-  sequence.folder = folder;
-  sequence.name = text_at(root, "name", index.file);
-  if (sequence.name.empty()) throw index.error(root, "the site has no 'name'", "add one");
-  sequence.map = file_at(root, "map", index);
-  sequence.surface = file_at(root, "surface", index);
-  sequence.calibration = file_at(root, "calibration", index);
-  sequence.local_maps = read_local_maps(root["local_maps"], index);
-  if (const auto file = file_at(root, "odometry", index)) {
-    sequence.odometry = read_tum_odometry(*file);
-  }
-  if (const auto file = file_at(root, "truth", index)) sequence.truth = read_tum(*file);
-  return sequence;
+  return reading_yaml(index.file, ErrorKind::kInput,
+                      [&](const YAML::Node& root) { return sequence_of(root, index); });
 }
 
 Frame read_frame(const Sequence& sequence, const Sequence::LocalMap& local_map) {

@@ -17,14 +17,16 @@ class Reader {
  public:
   Reader(const std::filesystem::path& path, OptionTable& table) : path_(path), table_(table) {}
 
-  void read(const YAML::Node& node, const std::string& prefix) {
+  void read(const YAML::Node& node, const std::string& prefix, int depth = 0) {
+    // Aliases can make a node its own child, or one of a million paths.
+    if (depth > kDeepest) throw refusal(node, prefix, "is nested too deeply");
     if (node.IsNull() && prefix.empty()) return;  // comments only
     if (!node.IsMap()) throw refusal(node, prefix, "`name: value` lines are expected");
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) throw refusal(entry.first, prefix, "a key must be a name");
       const std::string name = (prefix.empty() ? "" : prefix + ".") + entry.first.Scalar();
       if (entry.second.IsMap()) {
-        read(entry.second, name);
+        read(entry.second, name, depth + 1);
       } else {
         set(name, entry.first, entry.second);
       }
@@ -51,6 +53,8 @@ class Reader {
     table_.set(name, value.Scalar(), place);
     origins_.emplace(name, place);
   }
+
+  static constexpr int kDeepest = 3;  ///< stage: name: value; names may have points
 
   const std::filesystem::path& path_;
   OptionTable& table_;
@@ -87,9 +91,11 @@ std::string dump_option(const Option& option, std::string_view stage,
 }  // namespace
 
 OptionOrigins read_yaml_options(const std::filesystem::path& path, OptionTable& table) {
-  Reader reader(path, table);
-  reader.read(load_yaml(path, ErrorKind::kUsage), "");
-  return reader.take_origins();
+  return reading_yaml(path, ErrorKind::kUsage, [&](const YAML::Node& root) {
+    Reader reader(path, table);
+    reader.read(root, "");
+    return reader.take_origins();
+  });
 }
 
 std::string dump_yaml_options(const OptionTable& table, const OptionOrigins& origins) {

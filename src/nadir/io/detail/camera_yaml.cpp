@@ -46,8 +46,8 @@ CameraModel camera_of(const YAML::Node& camera, const std::string& distortion_ke
   const std::vector<double> k = calibration_numbers(camera, "intrinsics", 4, file);
   const std::vector<double> size = calibration_numbers(camera, "resolution", 2, file);
   CameraModel model;
-  model.width = static_cast<int>(size[0]);
-  model.height = static_cast<int>(size[1]);
+  model.width = checked_side(size[0], "the width", place_of(camera, file));
+  model.height = checked_side(size[1], "the height", place_of(camera, file));
   model.fx = k[0];
   model.fy = k[1];
   model.cx = k[2];
@@ -70,10 +70,7 @@ Transform3<To, From> transform_of(const std::vector<double>& m, const std::strin
   return rigid<To, From>(rotation, {m[3], m[7], m[11]}, where);
 }
 
-}  // namespace
-
-EurocCamera read_euroc_camera(const path& file) {
-  const YAML::Node root = load_yaml(file, ErrorKind::kInput);
+EurocCamera euroc_camera(const YAML::Node& root, const path& file) {
   EurocCamera camera;
   camera.model = camera_of(root, "distortion_coefficients", file);
   if (!root["T_BS"] || !root["T_BS"]["data"]) {
@@ -84,8 +81,7 @@ EurocCamera read_euroc_camera(const path& file) {
   return camera;
 }
 
-StereoRig read_kalibr_rig(const path& file) {
-  const YAML::Node root = load_yaml(file, ErrorKind::kInput);
+StereoRig kalibr_rig(const YAML::Node& root, const path& file) {
   if (!root["cam0"] || !root["cam1"] || !root["cam1"]["T_cn_cnm1"]) {
     throw input_error(file, "has no cam0, cam1 and T_cn_cnm1",
                       "give the camchain of a stereo calibration");
@@ -107,6 +103,18 @@ StereoRig read_kalibr_rig(const path& file) {
       transform_of<frames::RightCamera, frames::Camera>(matrix, place_of(rows, file));
   check_rig(rig, place_of(rows, file));
   return rig;
+}
+
+}  // namespace
+
+EurocCamera read_euroc_camera(const path& file) {
+  return reading_yaml(file, ErrorKind::kInput,
+                      [&](const YAML::Node& root) { return euroc_camera(root, file); });
+}
+
+StereoRig read_kalibr_rig(const path& file) {
+  return reading_yaml(file, ErrorKind::kInput,
+                      [&](const YAML::Node& root) { return kalibr_rig(root, file); });
 }
 
 }  // namespace nadir

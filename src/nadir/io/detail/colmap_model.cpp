@@ -25,8 +25,8 @@ CameraModel camera_of(const TextRow& row) {
                 "use SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL or OPENCV, or undistort");
   }
   CameraModel camera;
-  camera.width = static_cast<int>(number_in_file(f[2], "width", row.where));
-  camera.height = static_cast<int>(number_in_file(f[3], "height", row.where));
+  camera.width = checked_side(number_in_file(f[2], "width", row.where), "width", row.where);
+  camera.height = checked_side(number_in_file(f[3], "height", row.where), "height", row.where);
   const bool one_focal = f[1].starts_with("SIMPLE") || f[1] == "RADIAL";
   const std::size_t centre = one_focal ? 1 : 2;
   camera.fx = p[0];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <map>
 
@@ -37,6 +38,17 @@ std::map<std::string, path> by_key(const std::vector<path>& files) {
   return keyed;
 }
 
+bool is_finite(const CameraModel& camera) {
+  return std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy + camera.k1 + camera.k2 +
+                       camera.p1 + camera.p2 + camera.k3);
+}
+
+std::string size_of(const Raster<std::uint8_t>& image) {
+  return fmt::format("{} x {}", image.width(), image.height());
+}
+
+}  // namespace
+
 void check_increase(const path& file, const Drive& drive) {
   for (std::size_t i = 1; i < drive.frames.size(); ++i) {
     const Stamp before = drive.frames[i - 1].stamp;
@@ -48,12 +60,6 @@ void check_increase(const path& file, const Drive& drive) {
                       "correct the times, or remove the frame");
   }
 }
-
-std::string size_of(const Raster<std::uint8_t>& image) {
-  return fmt::format("{} x {}", image.width(), image.height());
-}
-
-}  // namespace
 
 std::vector<path> files_of(const path& folder, DriveFiles kind) {
   static constexpr std::array kImages{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".pgm", ".ppm"};
@@ -122,14 +128,14 @@ void take_times(const path& file, Drive& drive) {
   }
   std::vector<Stamp> stamps;
   for_each_line(file, read_file(file), [&](const std::string& where, const auto& words) {
-    // KITTI writes exponents: 1.036240e-01.
-    const auto stamp = parse_stamp(words[0]);
-    if (stamp) {
-      stamps.push_back(*stamp);
-    } else {
+    // "+0.1" and the like, which parse_stamp() does not take.
+    const auto stamp = parse_stamp(words[0].starts_with('+') ? words[0].substr(1) : words[0]);
+    if (!stamp) {
       const double seconds = number_in_file(words[0], "the time", where);
-      stamps.push_back({static_cast<std::int64_t>(std::llround(seconds * 1e9))});
+      throw Error(ErrorKind::kInput, fmt::format("the time {:g} s is of another age", seconds),
+                  where, "correct the line");
     }
+    stamps.push_back(*stamp);
     const std::size_t count = stamps.size();
     if (count > 1 && stamps[count - 1] <= stamps[count - 2]) {
       throw Error(ErrorKind::kInput,
@@ -164,8 +170,11 @@ std::vector<Stamp> read_datetimes(const path& file) {
       throw Error(ErrorKind::kInput, "is not a date and time", where,
                   "a line is 2011-09-26 13:02:25.964389445");
     }
-    stamps.push_back(
-        {static_cast<std::int64_t>(timegm(&date)) * 1'000'000'000 + fraction->nanoseconds});
+    const auto seconds = parse_stamp(std::to_string(timegm(&date)));
+    if (!seconds) {
+      throw Error(ErrorKind::kInput, "is a date of another age", where, "correct the line");
+    }
+    stamps.push_back({seconds->nanoseconds + fraction->nanoseconds});
   });
   return stamps;
 }
@@ -250,6 +259,10 @@ void check_rig(const StereoRig& rig, const std::string& where) {
     throw Error(ErrorKind::kInput,
                 fmt::format("the focal length is {:.6g} (left) and {:.6g} (right) pixels",
                             rig.left.fx, rig.right.fx),
+                where, "correct the calibration");
+  }
+  if (!is_finite(rig.left) || !is_finite(rig.right) || !rig.right_from_left.is_finite()) {
+    throw Error(ErrorKind::kInput, "the calibration holds or leads to numbers that are not finite",
                 where, "correct the calibration");
   }
   constexpr double kSmallestM = 1e-4;

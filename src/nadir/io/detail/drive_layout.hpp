@@ -68,6 +68,9 @@ std::vector<DriveFrame> paired(const std::filesystem::path& first_folder, DriveF
 /// increase.
 void take_times(const std::filesystem::path& file, Drive& drive);
 
+/// Throws Error (input) that names `file` and the frame where the stamps do not increase.
+void check_increase(const std::filesystem::path& file, const Drive& drive);
+
 /// The stamps of a KITTI raw timestamps.txt: "2011-09-26 13:02:25.964389445".
 std::vector<Stamp> read_datetimes(const std::filesystem::path& file);
 

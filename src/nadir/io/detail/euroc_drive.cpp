@@ -23,7 +23,8 @@ std::map<std::int64_t, path> images_of(const path& camera) {
     std::int64_t stamp = 0;
     const auto [end, error] =
         std::from_chars(words[0].data(), words[0].data() + words[0].size(), stamp);
-    if (error != std::errc{} || end != words[0].data() + words[0].size() || words.size() < 2) {
+    if (error != std::errc{} || end != words[0].data() + words[0].size() || words.size() < 2 ||
+        !is_near_epoch({stamp})) {
       throw Error(ErrorKind::kInput, fmt::format("'{}' is not whole nanoseconds", words[0]), where,
                   "a line is `stamp,file`");
     }

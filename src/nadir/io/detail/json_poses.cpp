@@ -32,36 +32,53 @@ ImportedPoses checked(const std::filesystem::path& path, Read&& read) {
   }
 }
 
+template <class Document>
+double number(const Document& value, const std::filesystem::path& path) {
+  return checked_number(value.template get<double>(), "a number", path.string());
+}
+
+double number_or_0(const SortedJson& object, const char* key, const std::filesystem::path& path) {
+  return object.contains(key) ? number(object.at(key), path) : 0.0;
+}
+
+/// A side of the image: nlohmann would cast whatever number is there.
+template <class Document>
+int side(const Document& object, const char* key, const std::filesystem::path& path) {
+  return checked_side(object.at(key).template get<double>(), key, path.string());
+}
+
 /// OpenSfM's cameras: lengths in units of the longer side, from the centre of the image.
 CameraModel opensfm_camera(const SortedJson& c, const std::filesystem::path& path) {
   CameraModel camera;
   const std::string type = c.value("projection_type", "perspective");
-  camera.width = c.at("width");
-  camera.height = c.at("height");
+  camera.width = side(c, "width", path);
+  camera.height = side(c, "height", path);
   const double size = std::max(camera.width, camera.height);
   camera.cx = 0.5 * (camera.width - 1);
   camera.cy = 0.5 * (camera.height - 1);
   if (type == "perspective") {
-    camera.fx = camera.fy = size * c.at("focal").get<double>();
+    camera.fx = camera.fy = size * number(c.at("focal"), path);
   } else if (type == "brown") {
-    camera.fx = size * c.at("focal_x").get<double>();
-    camera.fy = size * c.at("focal_y").get<double>();
-    camera.cx += size * c.at("c_x").get<double>();
-    camera.cy += size * c.at("c_y").get<double>();
-    camera.p1 = c.value("p1", 0.0);
-    camera.p2 = c.value("p2", 0.0);
-    camera.k3 = c.value("k3", 0.0);
+    camera.fx = size * number(c.at("focal_x"), path);
+    camera.fy = size * number(c.at("focal_y"), path);
+    camera.cx += size * number(c.at("c_x"), path);
+    camera.cy += size * number(c.at("c_y"), path);
+    camera.p1 = number_or_0(c, "p1", path);
+    camera.p2 = number_or_0(c, "p2", path);
+    camera.k3 = number_or_0(c, "k3", path);
   } else {
     throw input_error(path, "the camera model " + type + " cannot be expressed",
                       "use perspective or brown");
   }
-  camera.k1 = c.value("k1", 0.0);
-  camera.k2 = c.value("k2", 0.0);
+  camera.k1 = number_or_0(c, "k1", path);
+  camera.k2 = number_or_0(c, "k2", path);
   return camera;
 }
 
-Eigen::Vector3d vector(const std::array<double, 3>& values) {
-  return {values[0], values[1], values[2]};
+/// Three numbers.
+template <class Document>
+Eigen::Vector3d vector(const Document& values, const std::filesystem::path& path) {
+  return {number(values.at(0), path), number(values.at(1), path), number(values.at(2), path)};
 }
 
 ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::path& path) {
@@ -69,7 +86,8 @@ ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::p
                                         [](const SortedJson& a, const SortedJson& b) {
                                           return a.at("shots").size() < b.at("shots").size();
                                         });
-  if (largest == document.end() || largest->at("shots").empty()) {
+  if (largest == document.end() || !largest->at("shots").is_object() ||
+      largest->at("shots").empty()) {
     throw input_error(path, "holds no poses");
   }
   ImportedPoses result;
@@ -81,15 +99,16 @@ ImportedPoses opensfm_poses(const SortedJson& document, const std::filesystem::p
     const SortedJson& lla = largest->at("reference_lla");
     result.frame = PhotoPoseFrame::kTopocentric;
     result.reference =
-        GeodeticPosition{lla.at("latitude"), lla.at("longitude"), lla.at("altitude")};
+        GeodeticPosition{number(lla.at("latitude"), path), number(lla.at("longitude"), path),
+                         number(lla.at("altitude"), path)};
   }
   for (const auto& [name, shot] : largest->at("shots").items()) {
-    const Eigen::Vector3d axis = vector(shot.at("rotation"));
+    const Eigen::Vector3d axis = vector(shot.at("rotation"), path);
     Transform3<frames::Camera, frames::Map> camera_from_map;
     if (axis.norm() > 0.0) {
       camera_from_map.rotation = Eigen::AngleAxisd(axis.norm(), axis.normalized());
     }
-    camera_from_map.translation = vector(shot.at("translation"));
+    camera_from_map.translation = vector(shot.at("translation"), path);
     const std::string camera = shot.at("camera");
     result.poses.push_back(
         {name, opensfm_camera(largest->at("cameras").at(camera), path), camera_from_map.inverse()});
@@ -112,19 +131,21 @@ ImportedPoses read_nadir_poses(const std::filesystem::path& path) {
     result.crs = document.at("crs");
     std::vector<CameraModel> cameras;
     for (const Json& c : document.at("cameras")) {
-      cameras.push_back({c.at("width"), c.at("height"), c.at("fx"), c.at("fy"), c.at("cx"),
-                         c.at("cy"), c.at("k1"), c.at("k2"), c.at("p1"), c.at("p2"), c.at("k3")});
+      const auto value = [&](const char* key) { return number(c.at(key), path); };
+      cameras.push_back({side(c, "width", path), side(c, "height", path), value("fx"), value("fy"),
+                         value("cx"), value("cy"), value("k1"), value("k2"), value("p1"),
+                         value("p2"), value("k3")});
     }
     for (const Json& photo : document.at("photos")) {
       const Json& q = photo.at("quaternion");
       PhotoPose pose{name_at(photo, "name"), cameras.at(photo.at("camera").get<std::size_t>()), {}};
       pose.map_from_camera.rotation =
-          Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(),
-                             q.at(2).get<double>())
+          Eigen::Quaterniond(number(q.at(3), path), number(q.at(0), path), number(q.at(1), path),
+                             number(q.at(2), path))
               .normalized();
-      pose.map_from_camera.translation = vector(photo.at("position"));
+      pose.map_from_camera.translation = vector(photo.at("position"), path);
       if (photo.contains("flown_in_readout"))
-        pose.flown_in_readout = vector(photo.at("flown_in_readout"));
+        pose.flown_in_readout = vector(photo.at("flown_in_readout"), path);
       result.poses.push_back(std::move(pose));
     }
     if (result.poses.empty()) throw input_error(path, "holds no poses");

@@ -103,6 +103,11 @@ ProjectedCamera projected_camera(const KittiCalibration& calibration, const std:
         calibration.where(key), "a row is fx 0 cx tx 0 fy cy ty 0 0 1 tz");
   }
   camera.camera_from_camera0 = k.inverse() * p.col(3);
+  if (!camera.camera_from_camera0.allFinite()) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is no projection: its matrix is singular", key),
+                calibration.where(key), "a row is fx 0 cx tx 0 fy cy ty 0 0 1 tz");
+  }
   return camera;
 }
 

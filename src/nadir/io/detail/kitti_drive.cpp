@@ -116,6 +116,7 @@ void take_datetimes(const path& file, Drive& drive) {
     }
     frame.stamp = stamps[number];
   }
+  check_increase(file, drive);
   drive.inputs.push_back(file);
 }
 

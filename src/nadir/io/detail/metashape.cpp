@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/kitti_calibration.hpp"
 #include "nadir/io/detail/pose_formats.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -61,10 +62,8 @@ CameraModel camera_of(const CPLXMLNode& sensor, const std::filesystem::path& pat
     return number_in_file(word, name, path.string());
   };
   CameraModel camera;
-  camera.width = static_cast<int>(
-      number_in_file(text(*calibration, "resolution.width", "0"), "width", path.string()));
-  camera.height = static_cast<int>(
-      number_in_file(text(*calibration, "resolution.height", "0"), "height", path.string()));
+  camera.width = checked_side(value("resolution.width"), "width", path.string());
+  camera.height = checked_side(value("resolution.height"), "height", path.string());
   camera.fx = value("f") + value("b1");
   camera.fy = value("f");
   camera.cx = 0.5 * camera.width + value("cx") - 0.5;
@@ -116,7 +115,9 @@ ImportedPoses read_metashape(const std::filesystem::path& path) {
     Eigen::Matrix3d rotation;
     rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
     PhotoPose pose{text(node, "label"), sensor->second, {}};
-    pose.map_from_camera.rotation = Eigen::Quaterniond(chunk.rotation * rotation).normalized();
+    const Eigen::Matrix3d turned = chunk.rotation * rotation;
+    check_rotation(turned, path.string() + ": the transform of camera " + pose.name);
+    pose.map_from_camera.rotation = Eigen::Quaterniond(turned).normalized();
     pose.map_from_camera.translation =
         chunk.scale * (chunk.rotation * Eigen::Vector3d(m[3], m[7], m[11])) + chunk.translation;
     result.poses.push_back(std::move(pose));

@@ -15,9 +15,36 @@ namespace {
 using std::filesystem::path;
 
 struct StoredMatrix {
-  cv::Mat values;
+  std::vector<double> values;  ///< by rows
   std::string where;
 };
+
+/// The numbers of a matrix. FileNode::mat() would allocate whatever rows and columns are declared,
+/// and reads numbers that are not there.
+std::vector<double> values_of(const cv::FileNode& node, const std::string& where) {
+  constexpr int kLargest = 1000;  // a calibration has none above 4 x 4 or 14 x 1
+  const cv::FileNode rows = node["rows"];
+  const cv::FileNode columns = node["cols"];
+  const cv::FileNode data = node["data"];
+  const auto is_side = [](const cv::FileNode& side) {
+    return side.isInt() && static_cast<int>(side) >= 1 && static_cast<int>(side) <= kLargest;
+  };
+  if (!is_side(rows) || !is_side(columns) ||
+      data.size() != static_cast<std::size_t>(static_cast<int>(rows) * static_cast<int>(columns))) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("the matrix '{}' does not hold rows x cols numbers", node.name()),
+                where, "give the calibration as OpenCV wrote it");
+  }
+  std::vector<double> values;
+  for (const cv::FileNode& value : data) {
+    if (!value.isInt() && !value.isReal()) {
+      throw Error(ErrorKind::kInput, fmt::format("'{}' holds what is no number", node.name()),
+                  where, "give the calibration as OpenCV wrote it");
+    }
+    values.push_back(checked_number(static_cast<double>(value), node.name(), where));
+  }
+  return values;
+}
 
 /// The matrices of several files of OpenCV's by their names.
 class StoredMatrices {
@@ -34,8 +61,7 @@ class StoredMatrices {
     for (const std::string& name : names) {
       const auto found = matrices_.find(name);
       if (found == matrices_.end()) continue;
-      std::vector<double> values(found->second.values.begin<double>(),
-                                 found->second.values.end<double>());
+      const std::vector<double>& values = found->second.values;
       if (values.size() < count) {
         throw Error(ErrorKind::kInput,
                     fmt::format("'{}' has {} numbers instead of {}", name, values.size(), count),
@@ -62,10 +88,8 @@ class StoredMatrices {
                                     cv::FileStorage::READ | cv::FileStorage::MEMORY);
       const cv::FileNode root = storage.root();
       for (const cv::FileNode& node : root) {
-        if (!node.isMap() || node["data"].empty()) continue;
-        cv::Mat matrix = node.mat();
-        matrix.convertTo(matrix, CV_64F);
-        matrices_[node.name()] = {matrix, file.string()};
+        if (!node.isMap() || !node["data"].isSeq()) continue;
+        matrices_[node.name()] = {values_of(node, file.string()), file.string()};
       }
     } catch (const cv::Exception& exception) {
       throw input_error(file, "is not OpenCV's YAML: " + exception.err, "correct the file");

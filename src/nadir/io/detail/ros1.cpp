@@ -71,7 +71,9 @@ auto reading(const std::filesystem::path& file, const Action& action) {
                       "run `rosbag reindex` on it");
   } catch (const rosbag::BagFormatException& exception) {
     throw input_error(file, std::string("is damaged: ") + exception.what(), copy_again);
-  } catch (const ros::Exception& exception) {  // of rosbag and of the messages
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& exception) {  // of rosbag, of the messages, of boost
     throw input_error(file, std::string("cannot be read: ") + exception.what(), copy_again);
   }
 }

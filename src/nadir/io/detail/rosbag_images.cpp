@@ -7,10 +7,12 @@
 #include <array>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 #include "nadir/io/detail/cloud_columns.hpp"
 #include "nadir/io/detail/drive_layout.hpp"
 #include "nadir/io/detail/image_bytes.hpp"
+#include "nadir/io/detail/kitti_calibration.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -51,10 +53,25 @@ const Encoding& encoding_of(const ros1::Image& image, const std::string& where) 
       "record mono8, rgb8, bgr8, rgba8, bgra8, an 8-bit Bayer pattern, or compressed images");
 }
 
+constexpr const char* kCutOff = "the message is cut off: leave it out with --first and --count";
+
 void require_whole(std::size_t bytes, std::size_t needed, const std::string& where) {
   if (bytes >= needed) return;
   throw Error(ErrorKind::kInput, fmt::format("holds {} bytes instead of {}", bytes, needed), where,
-              "the message is cut off: leave it out with --first and --count");
+              kCutOff);
+}
+
+/// Throws where a calibration holds what no camera has. R may be all zeros: not rectified.
+void check_info(const ros1::CameraInfo& info, const std::string& where) {
+  for (const std::span<const double> values :
+       {std::span<const double>(info.d), std::span<const double>(info.k),
+        std::span<const double>(info.r), std::span<const double>(info.p)}) {
+    for (const double value : values) checked_number(value, "a number of the calibration", where);
+  }
+  checked_side(info.width, "the width", where);
+  checked_side(info.height, "the height", where);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(info.r.data());
+  if (!r.isZero()) check_rotation(r, where);
 }
 
 CameraModel model_of(const ImageTopic& topic, double fx, double fy, double cx, double cy) {
@@ -138,6 +155,7 @@ CloudField field_of(const ros1::PointField& field, const std::string& where) {
 }  // namespace
 
 CameraModel camera_of(const ImageTopic& topic, const std::string& where) {
+  check_info(topic.info, where + ":" + topic.info_name);
   if (topic.says_rectified()) return projected_camera_of(topic);
   const auto& k = topic.info.k;
   CameraModel model = model_of(topic, k[0], k[4], k[2], k[5]);
@@ -148,6 +166,8 @@ CameraModel camera_of(const ImageTopic& topic, const std::string& where) {
 StereoRig stereo_rig_of(const StereoTopics& topics, const std::string& where) {
   const ros1::CameraInfo& left = topics.left.info;
   const ros1::CameraInfo& right = topics.right.info;
+  check_info(left, where + ":" + topics.left.info_name);
+  check_info(right, where + ":" + topics.right.info_name);
   StereoRig rig;
   rig.right_from_left.translation = {shift_of(left) - shift_of(right), 0.0, 0.0};
   const bool projected = (topics.left.says_rectified() && topics.right.says_rectified()) ||
@@ -171,8 +191,8 @@ StereoRig stereo_rig_of(const StereoTopics& topics, const std::string& where) {
 Raster<std::uint8_t> pixels_of(ros1::Image image, const std::string& where) {
   if (image.compressed) return decode_image(where, std::move(image.bytes));
   const Encoding& encoding = encoding_of(image, where);
-  const int width = static_cast<int>(image.width);
-  const int height = static_cast<int>(image.height);
+  const int width = checked_integer(image.width, "its width", where, 1, kLargestSide);
+  const int height = checked_integer(image.height, "its height", where, 1, kLargestSide);
   const std::size_t row = std::size_t{image.width} * static_cast<std::size_t>(encoding.channels);
   if (image.step < row) {
     throw Error(ErrorKind::kInput,
@@ -200,7 +220,13 @@ PointCloud points_of(const ros1::PointCloud& message, const std::string& where) 
                 fmt::format("its rows are {} bytes long instead of {}", message.row_step, row),
                 where, "record a PointCloud2 without padding");
   }
-  require_whole(message.bytes.size(), row * message.height, where);
+  // The product of all three could overflow: rows are compared instead.
+  if (row > 0 && message.bytes.size() / row < message.height) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("holds {} bytes instead of {} rows of {}", message.bytes.size(),
+                            message.height, row),
+                where, kCutOff);
+  }
   std::vector<CloudColumn> columns;
   for (const ros1::PointField& field : message.fields) {
     columns.push_back({field_of(field, where), field.offset, message.point_step});
@@ -212,6 +238,11 @@ PointCloud points_of(const ros1::PointCloud& message, const std::string& where) 
     }
   }
   PointCloud cloud;
+  if (message.fields.size() > kMostFields || row == 0) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("has {} fields and rows of {} bytes", message.fields.size(), row),
+                where, "record a PointCloud2 of x, y, z");
+  }
   cloud.points =
       points_of_columns(where, message.bytes, columns, std::size_t{message.width} * message.height,
                         message.big_endian ? ByteOrder::kBig : ByteOrder::kLittle);

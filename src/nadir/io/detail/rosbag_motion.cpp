@@ -49,12 +49,12 @@ Transform3<To, From> rigid_of(const Transform& transform) {
   return {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), {t[0], t[1], t[2]}};
 }
 
-/// Finite, and a rotation.
+/// Of numbers that a robot can be at, and a rotation.
 bool is_pose(const Transform& transform) {
   constexpr double kLengthOff = 1e-2;
   const auto& q = transform.rotation_xyzw;
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  const auto finite = [](double value) { return std::isfinite(value); };
+  const auto finite = [](double value) { return std::abs(value) <= kLargestNumber; };
   return std::abs(length - 1.0) < kLengthOff && std::ranges::all_of(transform.translation, finite);
 }
 

@@ -11,11 +11,25 @@
 #include <vector>
 
 #include "nadir/core/error.hpp"
+#include "nadir/io/input_file.hpp"
 
 namespace nadir {
 
 /// Parses a file. Throws Error of `kind` with file:line.
 YAML::Node load_yaml(const std::filesystem::path& path, ErrorKind kind);
+
+/// What `read` makes of a parsed file. Where a node is of another kind than is asked for, yaml-cpp
+/// throws; that becomes an Error of `kind` with file:line.
+template <class Read>
+auto reading_yaml(const std::filesystem::path& path, ErrorKind kind, const Read& read) {
+  const YAML::Node root = load_yaml(path, kind);
+  try {
+    return read(root);
+  } catch (const YAML::Exception& error) {
+    throw Error(kind, "has another form than is expected: " + error.msg,
+                file_and_line(path, error.mark.line + 1), "see docs/formats.md");
+  }
+}
 
 /// The file:line of a node.
 std::string place_of(const YAML::Node& node, const std::filesystem::path& path);
