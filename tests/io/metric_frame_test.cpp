@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "io/gdal_files.hpp"
 #include "nadir/core/angle.hpp"
 #include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace nadir {
 namespace {
@@ -98,6 +100,23 @@ TEST(MetricFrame, TrueHeadingsLoseTheGridConvergence) {
   const GeodeticPosition south = at(-60.0, 5.999);
   EXPECT_NEAR(MetricFrame::around({south}).yaw_of_true_heading(0.0, south),
               radians(90.0) - convergence, radians(0.01));
+}
+
+/// A text out of a file must not make GDAL open files, ask the network or search a database.
+TEST(GeodeticReader, TakesNoFileAddressOrName) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "utm.prj").string();
+  test::write_text(file, test::wkt_of_epsg(32632));
+  for (const std::string& text :
+       {file, "/vsigzip/" + file, std::string("http://127.0.0.1:9/crs"), std::string("WGS 84"),
+        std::string("+projection"), std::string("EPSG:32632/../x"), std::string("IGNF:LAMB93"),
+        std::string("WGS84 UTM 99N"), std::string("WGS84 UTM 2147483647N"),
+        std::string(70'000, 'A')}) {
+    expect_error(ErrorKind::kInput, {"f:1", "is no reference system"},
+                 [&] { GeodeticReader(text, "f:1"); });
+  }
+  EXPECT_NEAR(GeodeticReader("EPSG:25832+7837", "f:1").read(5e5, 5.3e6, 0, "f:2").longitude_deg,
+              9.0, 1e-6);
 }
 
 TEST(GeodeticReader, KnowsTheNotationsOfOdm) {

@@ -28,6 +28,7 @@ GdalDataset open(const std::filesystem::path& path, const GdalErrors& errors) {
     throw input_error(path, "is not a raster that GDAL can open (" + errors.first_failure() + ")",
                       "give a GeoTIFF of heights");
   }
+  check_raster_size(*dataset, path);
   if (dataset->GetRasterCount() != 1) {
     throw input_error(
         path, fmt::format("it has {} bands, heights are one", dataset->GetRasterCount()),

@@ -112,6 +112,7 @@ MapTiles::MapTiles(const std::filesystem::path& path) : source_(std::make_unique
   if (!source_->dataset || source_->dataset->GetRasterCount() == 0) {
     throw input_error(path, "is not an image that GDAL can open", "give a GeoTIFF");
   }
+  check_block_size(*source_->dataset, path);
   const auto geo = read_geo_reference(*source_->dataset, path);
   if (!geo) throw input_error(path, "it has no geo-reference", "put a world file beside it");
   geo_ = *geo;

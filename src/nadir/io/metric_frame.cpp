@@ -11,6 +11,7 @@
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/reference_system.hpp"
 #include "nadir/io/detail/utm.hpp"
 
 namespace nadir {
@@ -134,7 +135,7 @@ double MetricFrame::yaw_of_true_heading(double heading_rad, const GeodeticPositi
 std::optional<int> utm_zone_at(const std::string& crs, double x, double y) {
   const GdalErrors errors;
   OGRSpatialReference grid;
-  if (crs.empty() || grid.SetFromUserInput(crs.c_str()) != OGRERR_NONE) return std::nullopt;
+  if (!set_reference_system(crs, grid)) return std::nullopt;
   grid.StripVertical();
   grid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   int is_north = 0;
@@ -151,6 +152,22 @@ std::optional<int> utm_zone_at(const std::string& crs, double x, double y) {
   return is_north != 0 ? zone : -zone;
 }
 
+namespace {
+
+/// "EPSG:32632" for ODM's own notation, "WGS84 UTM 32N".
+std::optional<std::string> epsg_of_odm(const std::string& text) {
+  int zone = 0;
+  int read = 0;
+  char side = 'N';
+  if (std::sscanf(text.c_str(), "WGS84 UTM %2d%c%n", &zone, &side, &read) != 2 ||
+      static_cast<std::size_t>(read) != text.size() || zone < 1 || zone > 60) {
+    return std::nullopt;
+  }
+  return fmt::format("EPSG:{}", (side == 'S' || side == 's' ? 32700 : 32600) + zone);
+}
+
+}  // namespace
+
 struct GeodeticReader::Transform {
   Transformation to_geodetic;
 };
@@ -159,17 +176,11 @@ GeodeticReader::GeodeticReader(const std::string& reference_system, const std::s
     : transform_(std::make_unique<Transform>()) {
   const GdalErrors errors;
   OGRSpatialReference crs;
-  int zone = 0;
-  char side = 'N';
-  std::string text = reference_system;
-  if (std::sscanf(text.c_str(), "WGS84 UTM %d%c", &zone, &side) == 2) {  // ODM's own notation
-    text = fmt::format("EPSG:{}", (side == 'S' || side == 's' ? 32700 : 32600) + zone);
-  }
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
+  const std::string text = epsg_of_odm(reference_system).value_or(reference_system);
+  if (!set_reference_system(text, crs)) {
     throw Error(ErrorKind::kInput, "'" + reference_system + "' is no reference system", where,
                 "write EPSG:code, a PROJ string or WGS84 UTM 32N");
   }
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   transform_->to_geodetic = transformation(crs, from_epsg(4326));
 }
 

@@ -12,6 +12,7 @@
 #include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/detail/gdal_warp.hpp"
 #include "nadir/io/detail/orthomosaic_bands.hpp"
+#include "nadir/io/detail/reference_system.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -167,7 +168,7 @@ void remove_collar(Collar collar, ImportedOrthomosaic& result) {
 
 void set_crs(const std::string& text, const Path& path, GeoReference& geo) {
   OGRSpatialReference crs;
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
+  if (!set_reference_system(text, crs)) {
     throw Error(ErrorKind::kUsage, "'" + text + "' is no reference system", "--crs",
                 "write EPSG:code");
   }
@@ -194,9 +195,10 @@ GeoReference plain_reference(const ImportOptions& options, const Path& path, int
 }
 
 /// Plain images are reduced by area here: GDAL would not warp what has no geo-reference.
-void resample_plain(double resolution, ImportedOrthomosaic& result) {
+void resample_plain(double resolution, const Path& path, ImportedOrthomosaic& result) {
   Orthomosaic& map = result.map;
   const double factor = map.geo.resolution / resolution;
+  check_result_size(map.width() * factor, map.height() * factor, path);
   const int width = std::max(1, static_cast<int>(std::lround(map.width() * factor)));
   const int height = std::max(1, static_cast<int>(std::lround(map.height() * factor)));
   const int method = factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC;
@@ -232,6 +234,7 @@ ImportedOrthomosaic import_orthomosaic(const Path& path, const ImportOptions& op
   const GdalSetting strict("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
   ImportedOrthomosaic result;
   GdalDataset dataset = open_image(path, errors);
+  check_raster_size(*dataset, path);
   if (dataset->GetRasterBand(1)->GetColorTable() != nullptr) {
     dataset = expanded_palette(*dataset, path);
     result.notes.emplace_back("its palette became red, green and blue");
@@ -246,7 +249,7 @@ ImportedOrthomosaic import_orthomosaic(const Path& path, const ImportOptions& op
     result.map.geo = *geo;
   } else {
     result.map.geo = plain_reference(options, path, dataset->GetRasterYSize());
-    if (options.resolution_m) resample_plain(*options.resolution_m, result);
+    if (options.resolution_m) resample_plain(*options.resolution_m, path, result);
   }
   if (!options.crs.empty() && result.map.geo.crs.empty()) {
     set_crs(options.crs, path, result.map.geo);

@@ -143,6 +143,7 @@ Orthomosaic read_orthomosaic(const std::filesystem::path& path,
   const GdalErrors errors;
   const GdalSetting strict("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
   const GdalDataset dataset = open_image(path, errors);
+  check_raster_size(*dataset, path);
   check_pixel_type(*dataset, path);
   const std::vector<int> bands = colour_bands(*dataset, path);
   const int width = dataset->GetRasterXSize();

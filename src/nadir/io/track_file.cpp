@@ -12,6 +12,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/reference_system.hpp"
 
 namespace nadir {
 namespace {
@@ -33,7 +34,7 @@ OGRSpatialReference wgs84() {
 std::vector<GeographicPose> geographic(const Trajectory& trajectory, const std::string& crs,
                                        const std::filesystem::path& path) {
   OGRSpatialReference map;
-  if (crs.empty() || map.SetFromUserInput(crs.c_str()) != OGRERR_NONE) {
+  if (!set_reference_system(crs, map)) {
     throw Error(ErrorKind::kUsage, "the map has no reference system: it lies nowhere on the Earth",
                 path.string());
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "nadir/io/detail/reference_system.hpp"
 #include "nadir/io/detail/utm.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/shell.hpp"
@@ -62,6 +63,9 @@ void check_crs(const OGRSpatialReference& crs, const std::filesystem::path& path
 
 void check_transform(const GeoTransform& t, GDALDataset& dataset,
                      const std::filesystem::path& path) {
+  if (!std::ranges::all_of(t, [](double value) { return std::abs(value) <= kLargestNumber; })) {
+    throw input_error(path, "the numbers of its grid are not finite", "correct its world file");
+  }
   const double size = std::max(dataset.GetRasterXSize(), dataset.GetRasterYSize());
   // A quarter of a pixel over the whole image is rounding in the writer, not rotation.
   const double allowed = 0.25 * std::abs(t[1]) / size;
@@ -84,11 +88,10 @@ std::optional<OGRSpatialReference> read_crs(GDALDataset& dataset,
   beside.replace_extension(".prj");
   if (!is_file(beside)) return std::nullopt;
   OGRSpatialReference crs;
-  if (crs.importFromWkt(read_file(beside).c_str()) != OGRERR_NONE) {
+  if (!set_reference_system(read_file(beside), crs)) {
     throw input_error(beside, "is not a coordinate reference system in WKT",
                       "correct or remove it");
   }
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;
 }
 

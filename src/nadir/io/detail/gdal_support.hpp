@@ -7,6 +7,8 @@
 #include <cpl_minixml.h>
 #include <gdal_priv.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -57,6 +59,15 @@ struct XmlCloser {
   void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
 };
 using XmlTree = std::unique_ptr<CPLXMLNode, XmlCloser>;
+
+/// The largest raster that is read as a whole: a map of more pixels could not be indexed.
+inline constexpr std::int64_t kMostRasterPixels = (std::int64_t{1} << 31U) - 1;
+
+/// Throws Error (input) where the header of a raster declares blocks that are larger than the
+/// raster and than 64 million pixels: GDAL would make room for one of them.
+void check_block_size(GDALDataset& dataset, const std::filesystem::path& path);
+/// That, and that the raster has no more than kMostRasterPixels.
+void check_raster_size(GDALDataset& dataset, const std::filesystem::path& path);
 
 /// The driver of a format ("GTiff", "PNG", "MEM"); registers GDAL's drivers at the first call.
 /// Throws Error (processing) where this GDAL was built without it.

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include "nadir/io/detail/reference_system.hpp"
 #include "nadir/io/detail/utm.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -138,6 +139,13 @@ void note_resolution(double before, double after, std::vector<std::string>& note
 
 }  // namespace
 
+void check_result_size(double width, double height, const std::filesystem::path& path) {
+  const double megapixels = width * height / 1e6;
+  if (megapixels <= kLargestMegapixels) return;  // a NaN is not
+  throw input_error(path, fmt::format("the map would have {:.0f} million pixels", megapixels),
+                    "give a coarser --gsd, or check its reference system with gdalinfo");
+}
+
 GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& path,
                              const std::string& crs, std::optional<double> resolution_m,
                              std::vector<std::string>& notes) {
@@ -145,7 +153,10 @@ GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& 
   if (dataset.GetGeoTransform(t.data()) != CE_None) return nullptr;
   OGRSpatialReference reference;
   if (!crs.empty()) {
-    reference.SetFromUserInput(crs.c_str());
+    if (!set_reference_system(crs, reference)) {
+      throw Error(ErrorKind::kUsage, "'" + crs + "' is no reference system", "--crs",
+                  "write EPSG:code");
+    }
   } else if (const OGRSpatialReference* own = dataset.GetSpatialRef(); own != nullptr) {
     reference = *own;
   }
@@ -160,11 +171,7 @@ GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& 
   }
   const double after = resolution_m.value_or(before);
   if (plan.why.empty() && std::abs(after - before) < 1e-9 * before) return nullptr;
-  const double megapixels = width * (before / after) * height * (before / after) / 1e6;
-  if (megapixels > kLargestMegapixels) {
-    throw input_error(path, fmt::format("the map would have {:.0f} million pixels", megapixels),
-                      "give a coarser --gsd");
-  }
+  check_result_size(width * (before / after), height * (before / after), path);
   constexpr double kAverageFrom = 1.2;  // coarser than this, interpolation would alias
   GdalDataset result = warp(dataset, path, crs, plan.target, after,
                             after > kAverageFrom * before ? "average" : "cubic");

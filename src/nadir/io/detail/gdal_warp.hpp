@@ -20,4 +20,8 @@ GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& 
 /// A palette as red, green, blue.
 GdalDataset expanded_palette(GDALDataset& dataset, const std::filesystem::path& path);
 
+/// Throws Error (input) where a map of so many pixels would be more than a thousand million of
+/// them, or where its size is no number.
+void check_result_size(double width, double height, const std::filesystem::path& path);
+
 }  // namespace nadir

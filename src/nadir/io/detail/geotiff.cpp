@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "nadir/io/detail/reference_system.hpp"
+
 namespace nadir {
 namespace {
 
@@ -17,11 +19,10 @@ void set_geo_reference(GDALDataset& dataset, const GeoReference& geo,
   dataset.SetGeoTransform(transform.data());
   if (geo.crs.empty()) return;
   OGRSpatialReference crs;
-  if (crs.SetFromUserInput(geo.crs.c_str()) != OGRERR_NONE) {
+  if (!set_reference_system(geo.crs, crs)) {
     throw Error(ErrorKind::kProcessing, "its coordinate reference system is not understood",
                 path.string());
   }
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   dataset.SetSpatialRef(&crs);
 }
 
