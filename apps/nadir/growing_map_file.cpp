@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostVersions = 1'000'000'000;  ///< a photo each
+
 struct Update {
   int version = 0;
   bool final = true;
@@ -21,10 +23,16 @@ Update read_update(const fs::path& map) {
   const fs::path file = update_file(map);
   if (!is_file(file)) return {};
   const auto document = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (!document.is_object() || !document.contains("version") || !document.contains("final")) {
+  const auto item = [&](const char* key) {
+    return document.is_object() ? document.value(key, nlohmann::json()) : nlohmann::json();
+  };
+  const nlohmann::json version = item("version");
+  const nlohmann::json final = item("final");
+  if (!version.is_number_integer() || !final.is_boolean()) {
     throw input_error(file, "it is no update of a map", "delete it where the map is finished");
   }
-  return {document["version"].get<int>(), document["final"].get<bool>()};
+  return {checked_integer(version.get<double>(), "its version", file.string(), 0, kMostVersions),
+          final.get<bool>()};
 }
 
 }  // namespace

@@ -58,6 +58,72 @@ Judgement judge(const RunRecord& record) {
   return judged(estimated, covariances, record.truth);
 }
 
+/// A manifest while its items are looked at: everything that is there must be of its kind, so that
+/// whoever reads on may take it as such. What is missing is the reader's concern.
+class ManifestCheck {
+ public:
+  explicit ManifestCheck(const fs::path& file) : file_(file) {}
+
+  using Kind = bool (Json::*)() const noexcept;
+
+  /// The item, an empty one of the kind where it is not there.
+  Json item(const Json& object, const char* key, Kind is_of_kind, const char* kind) const {
+    if (!object.is_object()) throw error(std::string("what holds '") + key + "' is no object");
+    if (!object.contains(key)) return {};
+    const Json& value = object[key];
+    if (!(value.*is_of_kind)()) throw error(std::string("'") + key + "' is no " + kind);
+    return value;
+  }
+
+  void texts(const Json& object, std::initializer_list<const char*> keys) const {
+    for (const char* key : keys) item(object, key, &Json::is_string, "text");
+  }
+
+  void numbers(const Json& object, std::initializer_list<const char*> keys) const {
+    for (const char* key : keys) item(object, key, &Json::is_number, "number");
+  }
+
+  Error error(const std::string& problem) const {
+    return {ErrorKind::kInput, problem, file_.string(), "run localize again"};
+  }
+
+ private:
+  fs::path file_;
+};
+
+void check_manifest(const Json& manifest, const fs::path& file) {
+  const ManifestCheck check(file);
+  check.texts(manifest, {"program", "version", "started", "device"});
+  check.item(manifest, "seed", &Json::is_number_unsigned, "whole number");
+  check.item(manifest, "threads", &Json::is_number_unsigned, "whole number");
+  check.item(manifest, "arguments", &Json::is_array, "list");
+  const Json options = check.item(manifest, "options", &Json::is_object, "object");
+  for (const auto& option : options.items()) check.texts(option.value(), {"from"});
+  const Json sources = check.item(manifest, "sources", &Json::is_object, "object");
+  for (const auto& source : sources.items()) {
+    if (!source.value().is_string()) throw check.error("'" + source.key() + "' is no path");
+    std::error_code problem;
+    static_cast<void>(fs::status(source.value().get<std::string>(), problem));
+    // A name that is too long, say; that it is not there is for those who need it.
+    if (problem && problem != std::errc::no_such_file_or_directory &&
+        problem != std::errc::not_a_directory) {
+      throw check.error("'" + source.key() + "' is no path: " + problem.message());
+    }
+  }
+  const Json inputs = check.item(manifest, "inputs", &Json::is_array, "list");
+  for (const Json& input : inputs) {
+    check.texts(input, {"path", "sha256"});
+    check.numbers(input, {"bytes"});
+  }
+  const Json stages = check.item(manifest, "stages", &Json::is_array, "list");
+  for (const Json& stage : stages) {
+    check.texts(stage, {"name"});
+    check.numbers(stage, {"seconds"});
+  }
+  const Json host = check.item(manifest, "host", &Json::is_object, "object");
+  if (!host.is_null()) check.numbers(host, {"logical_processors", "memory_bytes"});
+}
+
 }  // namespace
 
 Json read_manifest(const fs::path& run) {
@@ -74,6 +140,7 @@ Json read_manifest(const fs::path& run) {
   if (!manifest.is_object()) {
     throw Error(ErrorKind::kInput, "is not JSON", file.string(), "run localize again");
   }
+  check_manifest(manifest, file);
   return manifest;
 }
 

@@ -12,7 +12,8 @@
 
 namespace nadir::cli {
 
-/// manifest.json of a run. Throws Error (input) where it is missing or no JSON.
+/// manifest.json of a run. Throws Error (input) where it is missing or no JSON, or an item of it is
+/// of another kind than `write_manifest` gives it.
 Json read_manifest(const std::filesystem::path& run);
 
 /// Where the manifest says that the run's `map`, `site`, `surface` or `drive` is; empty where it

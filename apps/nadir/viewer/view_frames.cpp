@@ -2,6 +2,7 @@
 #include "view_frames.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -58,6 +59,12 @@ class Table {
     }
   }
 
+  int integer(std::size_t row, const std::string& column) const {
+    return checked_integer(number(row, column), column,
+                           file_.string() + ":" + std::to_string(row + 2), 0,
+                           std::numeric_limits<int>::max());
+  }
+
  private:
   Error error(std::size_t row, const std::string& problem) const {
     return {ErrorKind::kInput, problem, file_.string() + ":" + std::to_string(row + 2),
@@ -89,7 +96,7 @@ std::vector<ViewFrame> read_view_frames(const fs::path& run) {
   std::vector<ViewFrame> frames;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     ViewFrame frame;
-    frame.number = static_cast<int>(table.number(i, "frame"));
+    frame.number = table.integer(i, "frame");
     frame.stamp = trajectory[i].stamp;
     frame.status = table.text(i, "status");
     frame.map_from_robot = trajectory[i].pose;
@@ -98,7 +105,7 @@ std::vector<ViewFrame> read_view_frames(const fs::path& run) {
     frame.best_score = table.number(i, "best_score");
     frame.valid_weight = table.number(i, "valid_weight");
     frame.cluster_mass = table.number(i, "cluster_mass");
-    frame.clusters = static_cast<int>(table.number(i, "clusters"));
+    frame.clusters = table.integer(i, "clusters");
     frame.resampled = table.text(i, "resampled") == "1";
     frame.decode_ms = timing.number(i, "decode_ms");
     frame.update_ms = timing.number(i, "update_ms");
