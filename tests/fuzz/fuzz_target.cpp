@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 #include <stdexcept>
 
@@ -47,7 +48,11 @@ bool add_target(const char* name, Body body) {
 }
 
 bool run_target(Body body, std::string_view input) {
-  return attempt([&] { body(input); });
+  const std::clock_t started = std::clock();
+  const bool accepted = attempt([&] { body(input); });
+  require(static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC < kHangS,
+          "a hang: more than 5 s of processor time");
+  return accepted;
 }
 
 void require(bool holds, const char* what) {

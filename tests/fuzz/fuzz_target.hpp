@@ -17,6 +17,9 @@
 
 namespace nadir::fuzz {
 
+/// Of processor time, so that a busy machine does not count.
+inline constexpr double kHangS = 5.0;
+
 using Body = void (*)(std::string_view input);
 
 struct Target {

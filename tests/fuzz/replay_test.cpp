@@ -2,7 +2,6 @@
 // Gives every file of tests/fuzz/corpus/<target> to its target: seeds, and whatever crashed once.
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <set>
 
 #include "fuzz/fuzz_target.hpp"
@@ -16,7 +15,6 @@ static void PrintTo(const Target& target, std::ostream* out) { *out << target.na
 namespace {
 
 const std::filesystem::path kCorpus = "tests/fuzz/corpus";
-constexpr double kHangS = 5.0;  ///< of processor time, so that a busy machine does not count
 
 class Replay : public testing::TestWithParam<Target> {};
 
@@ -27,10 +25,7 @@ TEST_P(Replay, TakesEveryFileOfTheCorpus) {
   int accepted = 0;
   for (const std::filesystem::path& file : files) {
     const std::string input = test::read_text(file);
-    const std::clock_t started = std::clock();
     EXPECT_NO_THROW(accepted += run_target(GetParam().body, input) ? 1 : 0) << file;
-    const double seconds = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
-    EXPECT_LT(seconds, kHangS) << file;
   }
   EXPECT_GT(accepted, 0) << "no seed is sound: the target cannot get behind the first check";
 }
