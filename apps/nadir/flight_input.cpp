@@ -191,10 +191,16 @@ FlightInput read_flight(const FlightFiles& files, const AerialMappingOptions& op
   FlightInput input;
   std::vector<FlightPhoto> photos = read_photos(files.photos, input, progress);
   if (!files.positions.empty()) {
-    const auto unknown = apply_positions(read_positions(files.positions), photos);
+    const std::vector<ListedPosition> list = read_positions(files.positions);
+    const auto unknown = apply_positions(list, photos);
     if (!unknown.empty()) {
       input.warnings.push_back(listed(unknown) + ": in " + files.positions.string() +
                                ", but not among the photos");
+    }
+    if (unknown.size() == list.size()) {
+      input.doubts.push_back(files.positions.string() +
+                             ": none of its names is that of a photo: its positions have no part "
+                             "in the map; give the photos' names");
     }
   }
   std::vector<ListedControlPoint> points;

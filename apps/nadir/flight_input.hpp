@@ -32,7 +32,7 @@ struct FlightInput {
   std::vector<PhotoMetadata> photos;         ///< those that take part, in the order of the set
   std::vector<std::filesystem::path> files;  ///< of these photos
   std::vector<std::string> warnings;
-  std::vector<std::string> doubts;  ///< of the warnings those for which the map is doubtful
+  std::vector<std::string> doubts;  ///< why the map will be doubtful
   FlightEstimate estimate;
 };
 
