@@ -5,7 +5,13 @@
 
 #include <atomic>
 #include <csignal>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
+
+#include "exit_code.hpp"
+#include "streams.hpp"
+#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -18,11 +24,22 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 /// From the signal on; less than the three seconds within which every verb ends.
 constexpr unsigned kPatienceS = 2;
 
+/// What a signal handler prints must be there beforehand.
+std::string document_of_interrupt;
+std::string document_of_termination;
+
+/// A signal handler can do no more about a failure than go on.
+void write_all(int stream, std::string_view text) {
+  [[maybe_unused]] const auto n = write(stream, text.data(), text.size());
+}
+
 extern "C" void end_the_process(int /*signal_number*/) {
   constexpr std::string_view kSaid =
       "nadir: stopped within a step that cannot be interrupted; what was finished is kept\n";
-  if (!is_the_end) [[maybe_unused]]
-    const auto n = write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  if (!is_the_end) write_all(STDERR_FILENO, kSaid);
+  const bool term = noted_signal == SIGTERM;
+  if (document_due())
+    write_all(STDOUT_FILENO, term ? document_of_termination : document_of_interrupt);
   _exit(interrupted_exit_code());
 }
 
@@ -36,6 +53,11 @@ extern "C" void note_interrupt(int signal_number) {
 }  // namespace
 
 void catch_signals() {
+  const auto document = [](ExitCode code) {
+    return json_text(error_document(kStopped, static_cast<int>(code)), 2) + "\n";
+  };
+  document_of_interrupt = document(ExitCode::kInterrupted);
+  document_of_termination = document(ExitCode::kTerminated);
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
   std::signal(SIGALRM, end_the_process);

@@ -125,8 +125,8 @@ constexpr int kFailed = static_cast<int>(ExitCode::kFailed);
 }  // namespace
 
 int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
-  expect_document();
   std::copy(argv + std::min(argc, 1), argv + argc, std::back_inserter(invocation.arguments));
+  expect_document(wants_json(invocation));
   program.require_subcommand(0, 1);
   program.set_version_flag("--version", std::string{}, "Print version, libraries and licences");
   program.footer(std::string(kExample) + exit_codes_in_words());
@@ -135,7 +135,7 @@ int run(CLI::App& program, Invocation& invocation, int argc, char** argv) {
   } catch (const Error& error) {
     return give_up(invocation, error.what(), static_cast<int>(error.kind()));
   } catch (const Stopped&) {
-    return give_up(invocation, "stopped by a signal", interrupted_exit_code(), false);
+    return give_up(invocation, kStopped, interrupted_exit_code(), false);
   } catch (const std::bad_alloc&) {
     return give_up(invocation, "out of memory; a smaller map or a coarser resolution needs less",
                    kFailed);

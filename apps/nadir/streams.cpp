@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -27,7 +28,10 @@ std::string in_one_line(std::string text) {
 /// Where print() goes instead of standard output.
 std::string* captured = nullptr;
 
-bool printed_document = false;
+// Also read by a signal handler.
+std::atomic<bool> printed_document{false};
+std::atomic<bool> expected_document{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 bool colours_wanted() {
   const char* no_color = std::getenv("NO_COLOR");
@@ -62,7 +66,11 @@ void print(const Json& document) {
 }
 
 bool document_printed() { return printed_document; }
-void expect_document() { printed_document = false; }
+void expect_document(bool due) {
+  printed_document = false;
+  expected_document = due;
+}
+bool document_due() { return expected_document && !printed_document; }
 
 void print_error(const std::string& message) { print_marked("error:", "\033[31m", message); }
 

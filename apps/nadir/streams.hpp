@@ -16,9 +16,12 @@ void print(const std::string& text);
 /// One document, indented, with a newline; a number that is not finite becomes null.
 void print(const Json& document);
 
-/// Whether standard output has got a document since the start, or since the last of these calls.
+/// Whether standard output has got a document since the last expect_document().
 bool document_printed();
-void expect_document();
+/// From now on standard output is to get one document, where `due` (--json).
+void expect_document(bool due);
+/// Whether it is to get one and has not; safe in a signal handler.
+bool document_due();
 
 /// "nadir: error: …" on standard error, in one line; red on a terminal unless NO_COLOR is set.
 void print_error(const std::string& message);

@@ -6,13 +6,20 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <thread>
 
-#include "nadir/core/error.hpp"
 #include "interrupt.hpp"
+#include "nadir/core/error.hpp"
+#include "nadir/core/stop.hpp"
+#include "support/temporary_folder.hpp"
 #include "verdict.hpp"
 
 namespace nadir::cli {
@@ -66,6 +73,24 @@ TEST(Program, EveryExceptionBecomesOneDocument) {
                         1, "a/b: ");
   expect_error_document(end_of([](const auto&) -> int { throw Stopped{}; }),
                         interrupted_exit_code(), "stopped");
+}
+
+TEST(Program, AStepThatCannotBeInterruptedEndsWithTheDocumentThatIsDue) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "stdout").string();
+  const auto stuck = [&](int signal) {
+    catch_signals();
+    if (std::freopen(file.c_str(), "w", stdout) == nullptr) std::abort();
+    expect_document(true);
+    std::raise(signal);
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+  };
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const int code = 128 + signal;
+    EXPECT_EXIT(stuck(signal), testing::ExitedWithCode(code), "within a step");
+    EXPECT_EQ(Json::parse(test::read_text(file), nullptr, false),
+              error_document("stopped by a signal", code));
+  }
 }
 
 TEST(Program, WithoutJsonStandardOutputStaysEmpty) {
