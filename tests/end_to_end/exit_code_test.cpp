@@ -99,9 +99,9 @@ TEST(ExitCode, Convert) {
   expect_ending(convert + Words{map}, 2);  // it is there
   expect_ending(convert + Words{kNowhere + "/map.tif"}, 1);
   expect_ending({"convert", "map", "no/such.png", "-o", place_of("other.tif")}, 3);
-  expect_ending({"convert", "aeroground", "no/such", "-o", place_of("aeroground")}, 3);
-  expect_ending({"convert", "aeroground", place_of(""), "-o", place_of("aeroground"), "--dry-run"},
-                0);
+  expect_ending({"convert", "aeroground", "no/such", "-o", place_of("no_aeroground")}, 3);
+  expect_ending(
+      {"convert", "aeroground", place_of(""), "-o", place_of("no_aeroground"), "--dry-run"}, 0);
 }
 
 TEST(ExitCode, Match) {
@@ -228,7 +228,10 @@ TEST(ExitCode, ASignalEndsARunWithItsNumber) {
     const Outcome outcome = stopped(loud, " % ", signal);
     EXPECT_EQ(outcome.exit_code, 128 + signal) << outcome.errors;
     const Json document = Json::parse(outcome.output, nullptr, false);
-    EXPECT_TRUE(document.contains("runs")) << outcome.output;
+    // The seeds that are done, unless writing them out takes longer than a stop may.
+    EXPECT_TRUE(document.contains("runs") ||
+                document.value(Json::json_pointer("/error/exit_code"), 0) == 128 + signal)
+        << outcome.output;
   }
 }
 

@@ -133,8 +133,10 @@ TEST(Follow, AnInterruptEndsItWithTheMapAsItStands) {
   process.interrupt();
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(Json::parse(outcome.output),
-            (Json{{"map", map.string()}, {"photos", 2}, {"adjusted", false}}));
+  EXPECT_EQ(
+      Json::parse(outcome.output),
+      (Json{
+          {"map", map.string()}, {"photos", 2}, {"adjusted", false}, {"doubtful", Json::array()}}));
   const Json last = Json::parse(read_file(folder / "live.update.json"));
   EXPECT_EQ(last["final"], true);
   EXPECT_EQ(last["width_px"], read_orthomosaic(map).width());

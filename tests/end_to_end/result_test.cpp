@@ -143,10 +143,11 @@ TEST(ResultTest, SeveralSeedsGiveMeanAndSpread) {
 
 TEST(ResultTest, SameSeedSameBytesForAnyNumberOfThreads) {
   const auto localize = [](const std::string& name, const std::string& threads) {
-    const Outcome outcome = nadir({"localize", small_site().string(), "-o", scratch(name),
-                                   "--prior", "truth", "--prior-spread", "1,2", "--odometry",
-                                   "maps", "--seed", "9", "--threads", threads, "-q"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const Outcome outcome =
+        nadir({"localize", small_site().string(), "-o", scratch(name), "--prior", "truth",
+               "--odometry", "maps", "--seed", "9", "--threads", threads, "-q"});
+    // The local maps of this site are small: registered from them alone the robot is lost.
+    EXPECT_EQ(outcome.exit_code, 5) << outcome.errors;
   };
   localize("one_thread", "1");
   localize("two_threads", "2");
