@@ -182,5 +182,21 @@ TEST(CpuBackend, AWindowFarFromTheMapHasNoScore) {
   }
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define NADIR_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define NADIR_SANITIZED
+#endif
+#endif
+
+#ifndef NADIR_SANITIZED  // a sanitizer ends the process instead
+TEST(Correlator, SaysWhereMemoryIsRefused) {
+  constexpr int kNobodyHasSoMuch = 1 << 23;  // a spectrum of 280 TB
+  const cpu::Correlator correlator(kNobodyHasSoMuch, kNobodyHasSoMuch);
+  EXPECT_THROW(correlator.forward(Raster<float>(1, 1)), std::bad_alloc);
+}
+#endif
+
 }  // namespace
 }  // namespace nadir

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "nadir/map_matching/cpu/aligned.hpp"
+
 namespace nadir::cpu {
 namespace {
 
@@ -19,7 +21,8 @@ std::size_t wrapped(int value, std::size_t period) {
 void reserve(AlignedFloats& buffer, std::size_t& size, std::size_t needed) {
   if (size >= needed) return;
   buffer.reset();
-  buffer = hwy::AllocateAligned<float>(needed);
+  size = 0;
+  buffer = allocate_aligned<float>(needed);
   size = needed;
 }
 
@@ -73,7 +76,7 @@ void Correlator::forward_rows(const Raster<float>& image, float* out, std::size_
 
 Spectrum Correlator::forward(const Raster<float>& image) const {
   const std::size_t block_floats = size_.height * 2 * kernels_->lanes();
-  Spectrum spectrum{hwy::AllocateAligned<float>(plane_floats(size_.height))};
+  Spectrum spectrum{allocate_aligned<float>(plane_floats(size_.height))};
   // Rows beyond the image are zero in every block.
   const std::size_t filled = size_of(image.height()) * 2 * kernels_->lanes();
   forward_rows(image, spectrum.blocks.get(), size_.height, true);

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "nadir/map_matching/cpu/aligned.hpp"
 #include "nadir/map_matching/cpu/sums.hpp"
 
 #define POCKETFFT_NO_MULTITHREADING
@@ -26,7 +27,6 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nadir/map_matching/cpu/fft_kernels.cpp"
-#include <hwy/aligned_allocator.h>
 #include <hwy/foreach_target.h>  // must stand before highway.h
 #include <hwy/highway.h>
 
@@ -173,7 +173,7 @@ class Kernels : public FftKernels {
 
   void forward_rows(const float* image, std::size_t columns, std::size_t rows, float* out,
                     std::size_t out_rows) const override {
-    const auto buffer = hwy::AllocateAligned<ComplexLanes>(width_);
+    const auto buffer = allocate_aligned<ComplexLanes>(width_);
     std::fill(buffer.get() + columns, buffer.get() + width_, ComplexLanes(Lanes{}, Lanes{}));
     const std::size_t first = std::min(rows, kLanes);
     for (std::size_t x = 0; x < columns; x += kLanes) {
@@ -206,7 +206,7 @@ class Kernels : public FftKernels {
 
   void correlate_columns(const ColumnTask& task) const override {
     const std::size_t column_floats = 2 * kLanes * height_;
-    const auto buffer = hwy::AllocateAligned<float>(column_floats * (task.locals.size() + 1));
+    const auto buffer = allocate_aligned<float>(column_floats * (task.locals.size() + 1));
     const auto column = [&](std::size_t i) { return buffer.get() + column_floats * i; };
     for (std::size_t i = 0; i < task.locals.size(); ++i) {
       const std::size_t filled = 2 * kLanes * task.local_rows;
@@ -226,7 +226,7 @@ class Kernels : public FftKernels {
   }
 
   void inverse_rows(const RowTask& task, std::span<float* const> out) const override {
-    const auto buffer = hwy::AllocateAligned<ComplexLanes>(width_);
+    const auto buffer = allocate_aligned<ComplexLanes>(width_);
     for (std::size_t k = 0; k < task.sums.size(); k += 2) {
       const bool pair = k + 1 < task.sums.size();
       to_space(task, task.sums[k], pair ? task.sums[k + 1] : nullptr, buffer.get());
@@ -245,7 +245,7 @@ class Kernels : public FftKernels {
   }
 
   void zero_mean_rows(const RowTask& task, const ZeroMeanOutput& out) const override {
-    const auto buffer = hwy::AllocateAligned<ComplexLanes>(3 * width_);
+    const auto buffer = allocate_aligned<ComplexLanes>(3 * width_);
     for (std::size_t k = 0; k < 3; ++k) {
       to_space(task, task.sums[2 * k], task.sums[2 * k + 1], buffer.get() + k * width_);
     }
