@@ -110,8 +110,6 @@ Odometry GroundJob::odometry() const {
 void GroundJob::write_rest(SequenceWriter& writer, const DriveOverview& overview,
                            const std::filesystem::path& folder, const Verdict& verdict,
                            double seconds) const {
-  if (!options_.map.empty()) writer.write_map(read_orthomosaic(options_.map));
-  if (!options_.surface.empty()) writer.write_surface(read_elevation_map(options_.surface));
   writer.write_odometry(odometry());
   if (drive_.truth) writer.write_truth(read_tum(*drive_.truth));
   write_png(folder / "overview.png", overview.draw(odometry(), drive_.name + ", odometry frame"));
@@ -132,6 +130,9 @@ int GroundJob::run() {
   DriveOverview overview(*drive_.odometry,
                          std::hypot(mapping.local_map.size_x_m, mapping.local_map.size_y_m) / 2.0,
                          mapping.local_map.resolution_m);
+  // Before the local maps: large ones take longer than an interrupt leaves.
+  if (!options_.map.empty()) writer.write_map(read_orthomosaic(options_.map));
+  if (!options_.surface.empty()) writer.write_surface(read_elevation_map(options_.surface));
   write_maps(writer, overview);
   const GroundReport report = report_of(mapping_, render_ms_, low_coverage_);
   const Verdict verdict(report.doubts);

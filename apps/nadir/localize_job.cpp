@@ -168,14 +168,29 @@ void LocalizeJob::follow_map() {
 }
 
 void LocalizeJob::draw(const Orthomosaic& map, const SeedRun& run,
-                       const std::filesystem::path& folder) {
+                       const std::filesystem::path& folder, const StopToken& stop) {
   const Evaluation* evaluation = run.judgement ? &run.judgement->evaluation : nullptr;
   const std::string title = fmt::format("{}, seed {}", input_.sequence.name, run.seed);
   Trajectory odometry;
   if (use_odometry_file_) {
     odometry = odometry_alone(*input_.sequence.odometry, run.result, run.truth);
   }
-  figures_ = draw_run(folder, {map, run.result, run.truth, std::move(odometry), evaluation, title});
+  figures_ =
+      draw_run(folder, {map, run.result, run.truth, std::move(odometry), evaluation, title}, stop);
+}
+
+void LocalizeJob::complete(const Orthomosaic& map, const SeedRun& run, OutputFolder& output) {
+  try {
+    draw(map, run, output.staging(), interrupt_token());
+    stop_if_interrupted();
+    write_run_report(output.staging());
+    return output.commit();
+  } catch (const Stopped&) {
+  }
+  // What was computed goes first: there may be no time for the pictures.
+  output.commit();
+  draw(map, run, options_.run, {});
+  write_run_report(options_.run);
 }
 
 void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
@@ -255,11 +270,9 @@ int LocalizeJob::run() {
   const std::vector<SeedRun> runs = run_seeds(map, output.staging());
   finish_kept_site();
   if (runs.empty()) throw Stopped{};
-  draw(map, runs.front(), output.staging());
   const Verdict verdict = verdict_of(runs);
   write_summary_files(runs, output.staging(), verdict, stopwatch.seconds());
-  write_run_report(output.staging());
-  output.commit();
+  complete(map, runs.front(), output);
   report(runs, verdict);
   if (live_ && !interrupted()) {
     print_note("finished; still at " + live_->url() + ", Ctrl-C ends", false);

@@ -67,7 +67,10 @@ class LocalizeJob {
   std::vector<SeedRun> run_seeds(const Orthomosaic& map, const std::filesystem::path& folder);
   /// The map is in the making: its new versions are taken up between frames.
   void follow_map();
-  void draw(const Orthomosaic& map, const SeedRun& run, const std::filesystem::path& folder);
+  void draw(const Orthomosaic& map, const SeedRun& run, const std::filesystem::path& folder,
+            const StopToken& stop);
+  /// Adds pictures and page, and puts the run in place.
+  void complete(const Orthomosaic& map, const SeedRun& run, OutputFolder& output);
   void write_summary_files(const std::vector<SeedRun>& runs, const std::filesystem::path& folder,
                            const Verdict& verdict, double seconds) const;
   Verdict verdict_of(const std::vector<SeedRun>& runs) const;

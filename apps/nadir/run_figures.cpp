@@ -62,7 +62,8 @@ Trajectory odometry_alone(const Odometry& odometry, const RunResult& result,
   return alone;
 }
 
-std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures) {
+std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures,
+                                  const StopToken& stop) {
   std::vector<Track> tracks{{"estimate", figures.result.trajectory()}};
   if (!figures.truth.empty()) tracks.push_back({"truth", figures.truth});
   if (!figures.odometry.empty()) tracks.push_back({"odometry alone", figures.odometry});
@@ -85,6 +86,7 @@ std::vector<std::string> draw_run(const std::filesystem::path& folder, const Run
     pictures.push_back({"error.png", [&] { return errors(figures); }});
   }
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
+    stop.check();
     write_png(folder / pictures[k].name, pictures[k].draw());
   });
   std::vector<std::string> names;

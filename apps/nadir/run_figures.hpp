@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "localize_run.hpp"
+#include "nadir/core/stop.hpp"
 #include "nadir/evaluation/evaluation.hpp"
 
 namespace nadir::cli {
@@ -25,7 +26,8 @@ Trajectory odometry_alone(const Odometry& odometry, const RunResult& result,
                           const Trajectory& truth);
 
 /// Draws trajectory.png, swarm.png, comparison.png, coverage.png, diagnostics.png and, where there
-/// is a truth, error.png into the folder; returns their names.
-std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures);
+/// is a truth, error.png into the folder; returns their names. Throws Stopped between them.
+std::vector<std::string> draw_run(const std::filesystem::path& folder, const RunFigures& figures,
+                                  const StopToken& stop);
 
 }  // namespace nadir::cli
