@@ -45,6 +45,15 @@ std::string encode_jpeg(const std::filesystem::path& path, const Photo& photo, i
   return {bytes.begin(), bytes.end()};
 }
 
+/// Whether a file, or a folder on the way to it, is hidden: no photo, but what a writer has not
+/// finished (UnfinishedFolder), say.
+bool is_hidden(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const std::filesystem::path below = file.lexically_relative(folder);
+  return std::any_of(below.begin(), below.end(), [](const std::filesystem::path& part) {
+    return part.string().starts_with('.');
+  });
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> photo_files(const std::filesystem::path& folder) {
@@ -54,8 +63,7 @@ std::vector<std::filesystem::path> photo_files(const std::filesystem::path& fold
     for (const auto& extensions : {jpeg, others}) {
       std::vector<std::filesystem::path> files = files_in(folder, depth);
       std::erase_if(files, [&](const auto& file) {
-        return !extensions.contains(lower_extension(file)) ||
-               file.filename().string().starts_with('.');
+        return !extensions.contains(lower_extension(file)) || is_hidden(file, folder);
       });
       if (!files.empty()) return files;
     }
