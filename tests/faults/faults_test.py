@@ -27,7 +27,7 @@ LONGEST_STOP_S = 3.0
 LONG_VERBS = ("map", "ground", "localize", "match", "run", "simulate", "convert", "demo")
 KILLED_VERBS = ("map", "ground", "localize", "run", "convert")
 WRITING_VERBS = ("map", "ground", "localize", "match", "run", "simulate", "convert")
-DEMO_S = 6.0  # of the demo, in which it is stopped
+DEMO_S = 4.0  # of the demo, in which it is stopped
 
 site = None
 
@@ -98,7 +98,7 @@ class Stop(Faults):
         verb = site.verbs["map"]
         duration, _, whole = site.reference("map")
         draw = seeded("resume")
-        for _ in range(rounds(2, 20)):
+        for _ in range(rounds(1, 20)):
             folder = site.fresh("resumed")
             ended, ran, _ = self.stop(verb.arguments(folder), draw.uniform(0.3, 0.7) * duration,
                                       signal.SIGTERM)
@@ -323,7 +323,7 @@ class Input(Faults):
         def check(verb):
             draw = seeded("shrink", verb.name)
             duration = site.reference(verb.name)[0]
-            for _ in range(rounds(2, 20)):
+            for _ in range(rounds(1, 20)):
                 copy, files = self.images(verb.name)
                 started = time.monotonic()
                 process = site.start(self.verb_on(verb.name, copy))

@@ -61,16 +61,16 @@ class Site:
         self.scratch = pathlib.Path(scratch)
         self.folder = self.scratch / "site"
         small = []
-        for option in ("flight_image_width=640", "flight_image_height=480", "flight_focal_px=500",
+        for option in ("flight_image_width=480", "flight_image_height=360", "flight_focal_px=375",
                        "stereo_image_width=320", "stereo_image_height=240", "stereo_focal_px=190",
-                       "texel_m=0.1", "margin_m=10", "width_m=80", "depth_m=60"):
+                       "texel_m=0.2", "margin_m=5", "width_m=60", "depth_m=50"):
             small += ["--set", "simulation." + option]
-        self.simulate = ["simulate", "--photos", "6", "--frames", "8", "--sensors", "stereo"] + small
+        self.simulate = ["simulate", "--photos", "6", "--frames", "4", "--sensors", "stereo"] + small
         made = self.run(self.simulate + ["-o", str(self.folder)])
         assert made.code == 0, made
         truth = self.folder / "truth"
-        quick = ["--set", "aerial_mapping.features_per_photo=1500"]
-        few = ["--prior", "truth", "--particles", "300"]
+        quick = ["--gsd", "0.2", "--set", "aerial_mapping.features_per_photo=1000"]
+        few = ["--prior", "truth", "--particles", "100"]
         self.verbs = {verb.name: verb for verb in (
             Verb("map", ["map", str(self.folder / "photos"), "--allow-parts"] + quick, "map.tif"),
             Verb("ground", ["ground", str(self.folder / "stereo")], "ground"),
