@@ -68,7 +68,8 @@ class ManifestCheck {
 
   /// The item, an empty one of the kind where it is not there.
   Json item(const Json& object, const char* key, Kind is_of_kind, const char* kind) const {
-    if (!object.is_object()) throw error(std::string("what holds '") + key + "' is no object");
+    if (!object.is_object())
+      throw error(std::string("what should hold '") + key + "' is no object");
     if (!object.contains(key)) return {};
     const Json& value = object[key];
     if (!(value.*is_of_kind)()) throw error(std::string("'") + key + "' is no " + kind);
@@ -136,7 +137,17 @@ Json read_manifest(const fs::path& run) {
     throw Error(ErrorKind::kInput, "holds no manifest.json", run.string(),
                 "give a folder that `nadir localize` wrote");
   }
-  Json manifest = Json::parse(read_file(file), nullptr, false);
+  // Values are written again by recursion, which a text of brackets alone would make too deep.
+  constexpr int kDeepest = 32;
+  bool deep = false;
+  const auto is_shallow = [&](int depth, Json::parse_event_t, const Json&) {
+    deep = deep || depth > kDeepest;
+    return !deep;
+  };
+  Json manifest = Json::parse(read_file(file), is_shallow, false);
+  if (deep) {
+    throw Error(ErrorKind::kInput, "is nested too deeply", file.string(), "run localize again");
+  }
   if (!manifest.is_object()) {
     throw Error(ErrorKind::kInput, "is not JSON", file.string(), "run localize again");
   }

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/small_drive.hpp"
+#include "nadir/io/detail/camera_yaml.hpp"
 #include "nadir/io/drive_reader.hpp"
 #include "nadir/io/image.hpp"
 #include "nadir/io/pose_file.hpp"
@@ -230,6 +231,21 @@ TEST(PoseFile, RoundTripsTumInSpace) {
     EXPECT_LT((translation - written[i].odom_from_robot.translation).norm(), 1e-8);
     EXPECT_LT(rotation.angularDistance(written[i].odom_from_robot.rotation), 1e-8);
   }
+}
+
+/// OpenCV's parser ends a stack of 8 MB at some tens of thousands of levels, whatever they are of.
+TEST(OpencvYaml, RefusesNestingThatOpencvCannotParse) {
+  const TemporaryFolder folder;
+  for (const std::string sign : {"[", "{", "- ", "a: ", "? "}) {
+    std::string text = "%YAML:1.0\n---\nM1: ";
+    for (int i = 0; i < 200'000; ++i) text += sign;
+    write_text(folder / "stereo.yml", text);
+    expect_error(ErrorKind::kInput, {"stereo.yml", "nodes, a calibration has fewer than 5000"},
+                 [&] { read_opencv_rig({folder / "stereo.yml"}); });
+  }
+  write_text(folder / "stereo.yml", "<?xml version=\"1.0\"?><opencv_storage></opencv_storage>");
+  expect_error(ErrorKind::kInput, {"stereo.yml", "%YAML:1.0"},
+               [&] { read_opencv_rig({folder / "stereo.yml"}); });
 }
 
 }  // namespace

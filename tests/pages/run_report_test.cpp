@@ -165,6 +165,26 @@ TEST(RunReport, WhatIsNoRunIsSaidInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "report.html"));
 }
 
+/// An item of another kind than is expected, and brackets that no stack holds.
+TEST(RunReport, AManifestThatWasEditedIsSaidWithWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const int deep = 200'000;
+  const std::string brackets = std::string(deep, '[') + std::string(deep, ']');
+  for (const auto& [text, problem] :
+       {std::pair<std::string, const char*>{R"({"options": [1]})", "'options' is no object"},
+        {R"({"options": {"a": {"value": )" + brackets + "}}}", "nested too deeply"},
+        {R"({"sources": {"site": 5}})", "'site' is no path"},
+        {R"({"sources": {"map": ")" + std::string(5000, 'a') + "\"}}", "File name too long"},
+        {R"({"stages": [{"seconds": "1"}]})", "'seconds' is no number"},
+        {R"({"inputs": [5]})", "'path' is no object"},
+        {R"({"seed": -1})", "'seed' is no whole number"},
+        {R"({"host": 5})", "'host' is no object"}}) {
+    test::write_text(folder / "manifest.json", text);
+    expect_error(ErrorKind::kInput, {"manifest.json", problem},
+                 [&] { write_run_report(folder.path()); });
+  }
+}
+
 TEST(RunReport, HalfARunIsSaidWithTheFileThatIsMissing) {
   const test::TemporaryFolder folder;
   write_small_run(folder.path(), 0.3, true);

@@ -80,7 +80,9 @@ double parse_number(std::string_view text, const std::string& what) {
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  constexpr std::size_t kLongest = 256;  // of what was meant for a name
   std::string nearest;
+  if (name.size() > kLongest) return nearest;
   std::size_t smallest = std::max<std::size_t>(3, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     // The last part alone may have been typed: "temper" for "localization.temper".

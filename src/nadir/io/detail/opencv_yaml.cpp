@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <opencv2/core.hpp>
+#include <string_view>
 
 #include "nadir/io/detail/camera_yaml.hpp"
 #include "nadir/io/detail/drive_layout.hpp"
@@ -14,10 +16,34 @@ namespace {
 
 using std::filesystem::path;
 
+constexpr std::string_view kOpencvYaml = "%YAML:1.0";
+
 struct StoredMatrix {
   std::vector<double> values;  ///< by rows
   std::string where;
 };
+
+/// OpenCV parses nested nodes by recursion without a limit, and takes XML and JSON too. Every level
+/// needs one of these signs, of which a calibration has some hundreds.
+void check_text(const path& file, const std::string& text) {
+  constexpr std::ptrdiff_t kMostNodes = 5000;
+  if (!text.starts_with(kOpencvYaml)) {
+    throw input_error(file, "does not begin with %YAML:1.0", "give the YAML that OpenCV wrote");
+  }
+  const auto nodes = std::ranges::count_if(
+      text, [](char sign) { return sign == ':' || sign == '[' || sign == '{' || sign == '?'; });
+  std::ptrdiff_t dashes = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const char next = text[i + 1];
+    if (text[i] == '-' && (next == ' ' || next == '\n' || next == '\r')) ++dashes;
+  }
+  if (nodes + dashes > kMostNodes) {
+    throw input_error(
+        file,
+        fmt::format("holds {} nodes, a calibration has fewer than {}", nodes + dashes, kMostNodes),
+        "give the calibration alone");
+  }
+}
 
 /// The numbers of a matrix. FileNode::mat() would allocate whatever rows and columns are declared,
 /// and reads numbers that are not there.
@@ -84,8 +110,9 @@ class StoredMatrices {
  private:
   void read(const path& file) {
     try {
-      const cv::FileStorage storage(read_file(file),
-                                    cv::FileStorage::READ | cv::FileStorage::MEMORY);
+      const std::string text = read_file(file);
+      check_text(file, text);
+      const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
       const cv::FileNode root = storage.root();
       for (const cv::FileNode& node : root) {
         if (!node.isMap() || !node["data"].isSeq()) continue;
@@ -139,7 +166,7 @@ StereoRig rectified_rig(const std::vector<double>& p1, const std::vector<double>
 
 }  // namespace
 
-bool is_opencv_yaml(const path& file) { return read_file(file).starts_with("%YAML:1.0"); }
+bool is_opencv_yaml(const path& file) { return read_file(file).starts_with(kOpencvYaml); }
 
 StereoRig read_opencv_rig(const std::vector<path>& files) {
   const StoredMatrices matrices(files);
