@@ -12,6 +12,7 @@
 #include "io/bag_drive.hpp"
 #include "io/small_drive.hpp"
 #include "nadir/io/bag_topics.hpp"
+#include "nadir/io/detail/bag_check.hpp"
 #include "nadir/io/drive_reader.hpp"
 #include "nadir/io/mounting_file.hpp"
 #include "nadir/io/pose_file.hpp"
@@ -521,6 +522,46 @@ TEST_F(Rosbag, FilesThatAreNoBag) {
     fs::resize_file(file(), static_cast<std::uintmax_t>(share * static_cast<double>(whole)));
     expect_error(ErrorKind::kInput, {"drive.bag", "rosbag reindex"}, [&] { list_bag(file()); });
   }
+}
+
+/// rosbag itself would make room for what these declare, and read where they point to.
+TEST_F(Rosbag, LengthsAndOffsetsThatLie) {
+  write_whole();
+  const std::string whole = test::read_text(file());
+  const auto expect_damaged = [&](std::size_t position, const std::string& bytes,
+                                  const std::string& problem) {
+    ASSERT_NE(position, std::string::npos);
+    std::string spoiled = whole;
+    spoiled.replace(position, bytes.size(), bytes);
+    test::write_text(file(), spoiled);
+    expect_error(ErrorKind::kInput, {"drive.bag", problem}, [&] { list_bag(file()); });
+  };
+  const std::string large(4, '\xff');
+  const std::size_t first_chunk = whole.find("op=\x05");
+  expect_damaged(9, "1.2", "no bag of version 2.0");
+  expect_damaged(13, large, "damaged at byte 13: the header of a record has 4294967295 bytes");
+  expect_damaged(whole.find("index_pos=") + 10, large, "there is no index");
+  expect_damaged(whole.find("size=", whole.find("compression=")) + 5, large, "a chunk declares");
+  // An index record: its header, the length of its data, and 12 bytes an entry with the offset
+  // last.
+  const std::size_t index = whole.find("op=\x04", first_chunk);
+  const std::size_t entry = whole.find("ver=", index) + 8 + 4;
+  expect_damaged(entry + 8, large, "points beyond its chunk");
+  expect_damaged(whole.find("count=", index) + 6, large, "of another length than it says");
+  expect_damaged(whole.find("chunk_pos=") + 10, large, "there is no chunk");
+}
+
+TEST(RosbagLayout, AListIsNoLongerThanItsMessage) {
+  using ros1::has_layout;
+  using namespace std::string_view_literals;
+  EXPECT_TRUE(has_layout("", ""));
+  EXPECT_TRUE(has_layout("12345678abcd", "84"));
+  EXPECT_FALSE(has_layout("12345678abc", "84"));
+  EXPECT_TRUE(has_layout("\2\0\0\0ab"sv, "v1"));
+  EXPECT_FALSE(has_layout("\3\0\0\0ab"sv, "v1"));
+  EXPECT_FALSE(has_layout("\xff\xff\xff\xff"sv, "v8"));
+  EXPECT_TRUE(has_layout("\2\0\0\0\1\0\0\0ax\0\0\0\0y"sv, "(v11)"));
+  EXPECT_FALSE(has_layout("\3\0\0\0\1\0\0\0ax\0\0\0\0y"sv, "(v11)"));
 }
 
 }  // namespace

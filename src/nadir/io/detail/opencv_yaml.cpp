@@ -109,18 +109,16 @@ class StoredMatrices {
 
  private:
   void read(const path& file) {
-    try {
-      const std::string text = read_file(file);
-      check_text(file, text);
+    const std::string text = read_file(file);
+    check_text(file, text);
+    reading(file, "is not OpenCV's YAML", [&] {
       const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
       const cv::FileNode root = storage.root();
       for (const cv::FileNode& node : root) {
         if (!node.isMap() || !node["data"].isSeq()) continue;
         matrices_[node.name()] = {values_of(node, file.string()), file.string()};
       }
-    } catch (const cv::Exception& exception) {
-      throw input_error(file, "is not OpenCV's YAML: " + exception.err, "correct the file");
-    }
+    });
   }
 
   std::map<std::string, StoredMatrix> matrices_;

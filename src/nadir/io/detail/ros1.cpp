@@ -16,6 +16,7 @@
 #include <map>
 #include <string_view>
 
+#include "nadir/io/detail/bag_check.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir::ros1 {
@@ -78,6 +79,36 @@ auto reading(const std::filesystem::path& file, const Action& action) {
   }
 }
 
+constexpr const char* kHeaderLayout = "444v1";  // number, seconds, nanoseconds, frame
+
+/// has_layout() of each type that is read.
+template <class Message>
+const char* layout_of();
+template <>
+const char* layout_of<sensor_msgs::Image>() {
+  return "444v144v114v1";
+}
+template <>
+const char* layout_of<sensor_msgs::CompressedImage>() {
+  return "444v1v1v1";
+}
+template <>
+const char* layout_of<sensor_msgs::CameraInfo>() {
+  return "444v144v1v88888888888888888888888888888884444441";
+}
+template <>
+const char* layout_of<sensor_msgs::PointCloud2>() {
+  return "444v144(v1414)144v11";
+}
+template <>
+const char* layout_of<nav_msgs::Odometry>() {
+  return "444v1v1";  // and numbers, which deserialize() counts itself
+}
+template <>
+const char* layout_of<tf2_msgs::TFMessage>() {
+  return "(444v1v18888888)";
+}
+
 }  // namespace
 
 struct Bag::Contents {
@@ -88,6 +119,7 @@ struct Bag::Contents {
 
   void open();
   const std::vector<rosbag::MessageInstance>& of(const std::string& topic) const;
+  std::vector<std::uint8_t> bytes_of(const rosbag::MessageInstance& message) const;
 
   template <class Message>
   boost::shared_ptr<Message> instance(const rosbag::MessageInstance& message) const;
@@ -118,12 +150,31 @@ const std::vector<rosbag::MessageInstance>& Bag::Contents::of(const std::string&
   return found->second;
 }
 
+std::vector<std::uint8_t> Bag::Contents::bytes_of(const rosbag::MessageInstance& message) const {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream out(bytes.data(), message.size());
+  message.write(out);
+  return bytes;
+}
+
+/// As MessageInstance::instantiate does, once the message is known to hold what it declares: the
+/// lists of a message are made as long as they say before they are read.
 template <class Message>
 boost::shared_ptr<Message> Bag::Contents::instance(const rosbag::MessageInstance& message) const {
-  auto result = message.instantiate<Message>();
-  if (result) return result;
-  throw input_error(file, message.getTopic() + " is of type " + message.getDataType() + ", not " +
-                              ros::message_traits::DataType<Message>::value());
+  if (!message.isType<Message>()) {
+    throw input_error(file, message.getTopic() + " is of type " + message.getDataType() + ", not " +
+                                ros::message_traits::DataType<Message>::value());
+  }
+  std::vector<std::uint8_t> bytes = bytes_of(message);
+  if (!has_layout({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                  layout_of<Message>())) {
+    throw input_error(file, "a message of " + message.getTopic() + " is damaged",
+                      "leave it out with --first and --count");
+  }
+  const boost::shared_ptr<Message> result(new Message);
+  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::deserialize(in, *result);
+  return result;
 }
 
 template <class Message>
@@ -136,6 +187,7 @@ Bag::Bag(const std::filesystem::path& file) : contents_(std::make_unique<Content
   console_bridge::noOutputHandler();  // rosbag's own words on the terminal
   check_input_file(file);
   check_is_bag(file);
+  check_bag_structure(file);
   contents_->file = file;
   reading(file, [&] { contents_->open(); });
 }
@@ -149,12 +201,12 @@ const std::vector<Topic>& Bag::topics() const { return contents_->topics; }
 std::vector<Header> Bag::headers(const std::string& topic) const {
   return reading(file(), [&] {
     std::vector<Header> headers;
-    std::vector<std::uint8_t> bytes;
     for (const rosbag::MessageInstance& message : contents_->of(topic)) {
-      bytes.resize(message.size());
-      ros::serialization::OStream out(bytes.data(), message.size());
-      message.write(out);
-      ros::serialization::IStream in(bytes.data(), message.size());
+      std::vector<std::uint8_t> bytes = contents_->bytes_of(message);
+      if (!has_layout({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, kHeaderLayout)) {
+        throw input_error(file(), "a message of " + topic + " begins with no header");
+      }
+      ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
       std_msgs::Header header;
       ros::serialization::deserialize(in, header);
       headers.push_back(header_of(header));
@@ -166,7 +218,8 @@ std::vector<Header> Bag::headers(const std::string& topic) const {
 Image Bag::image(const std::string& topic, std::size_t number) const {
   return reading(file(), [&]() -> Image {
     const rosbag::MessageInstance& message = contents_->of(topic).at(number);
-    if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
+    if (message.isType<sensor_msgs::CompressedImage>()) {
+      const auto compressed = contents_->instance<sensor_msgs::CompressedImage>(message);
       return {header_of(compressed->header), 0, 0, 0, compressed->format, true,
               text_of(compressed->data)};
     }
