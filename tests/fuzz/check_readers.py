@@ -66,7 +66,7 @@ THROUGH = {
     "read_nadir_poses": "read_photo_poses",
     "read_colmap_model": "read_photo_poses",
     "read_text_table": "read_control_points",
-    "load_yaml": "read_mounting",
+    "parse_yaml": "read_mounting",
     "read_pcd": "read_point_cloud",
     "read_ply": "read_point_cloud",
     "read_datetimes": "open_drive",
@@ -80,6 +80,7 @@ THROUGH = {
     "read_lidar_from_files": "open_drive",
     "read_geo_reference": "read_orthomosaic",
     "open_image": "read_orthomosaic",
+    "check_image_size": "decode_image",
     "read_band": "read_orthomosaic",
     "read_validity": "read_orthomosaic",
 }

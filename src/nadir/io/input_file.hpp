@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -63,19 +62,6 @@ int checked_integer(double value, const std::string& what, const std::string& wh
 /// Error (input).
 inline int checked_side(double pixels, const std::string& what, const std::string& where) {
   return checked_integer(pixels, what, where, 0, kLargestSide);
-}
-
-/// What `read` returns; what else than an Error a library throws on the way becomes an Error
-/// (input) that names the file: none of its exceptions is a caller's concern.
-template <class Read>
-auto reading(const std::filesystem::path& path, const std::string& problem, const Read& read) {
-  try {
-    return read();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& exception) {
-    throw input_error(path, problem + ": " + exception.what(), "correct the file or copy it again");
-  }
 }
 
 }  // namespace nadir

@@ -138,7 +138,9 @@ ImportedPoses read_nadir_poses(const std::filesystem::path& path) {
     }
     for (const Json& photo : document.at("photos")) {
       const Json& q = photo.at("quaternion");
-      PhotoPose pose{name_at(photo, "name"), cameras.at(photo.at("camera").get<std::size_t>()), {}};
+      const int camera = checked_integer(photo.at("camera").get<double>(), "the camera of a photo",
+                                         path.string(), 0, static_cast<int>(cameras.size()) - 1);
+      PhotoPose pose{name_at(photo, "name"), cameras[static_cast<std::size_t>(camera)], {}};
       pose.map_from_camera.rotation =
           Eigen::Quaterniond(number(q.at(3), path), number(q.at(0), path), number(q.at(1), path),
                              number(q.at(2), path))

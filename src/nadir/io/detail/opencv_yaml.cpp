@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
-#include <opencv2/core.hpp>
 #include <string_view>
 
 #include "nadir/io/detail/camera_yaml.hpp"
 #include "nadir/io/detail/drive_layout.hpp"
 #include "nadir/io/detail/kitti_calibration.hpp"
+#include "nadir/io/detail/yaml_file.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -23,51 +22,20 @@ struct StoredMatrix {
   std::string where;
 };
 
-/// OpenCV parses nested nodes by recursion without a limit, and takes XML and JSON too. Every level
-/// needs one of these signs, of which a calibration has some hundreds.
-void check_text(const path& file, const std::string& text) {
-  constexpr std::ptrdiff_t kMostNodes = 5000;
-  if (!text.starts_with(kOpencvYaml)) {
-    throw input_error(file, "does not begin with %YAML:1.0", "give the YAML that OpenCV wrote");
-  }
-  const auto nodes = std::ranges::count_if(
-      text, [](char sign) { return sign == ':' || sign == '[' || sign == '{' || sign == '?'; });
-  std::ptrdiff_t dashes = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    const char next = text[i + 1];
-    if (text[i] == '-' && (next == ' ' || next == '\n' || next == '\r')) ++dashes;
-  }
-  if (nodes + dashes > kMostNodes) {
-    throw input_error(
-        file,
-        fmt::format("holds {} nodes, a calibration has fewer than {}", nodes + dashes, kMostNodes),
-        "give the calibration alone");
-  }
-}
-
-/// The numbers of a matrix. FileNode::mat() would allocate whatever rows and columns are declared,
-/// and reads numbers that are not there.
-std::vector<double> values_of(const cv::FileNode& node, const std::string& where) {
+/// The numbers of a matrix, by rows.
+std::vector<double> values_of(const YAML::Node& node, const std::string& name, const path& file) {
   constexpr int kLargest = 1000;  // a calibration has none above 4 x 4 or 14 x 1
-  const cv::FileNode rows = node["rows"];
-  const cv::FileNode columns = node["cols"];
-  const cv::FileNode data = node["data"];
-  const auto is_side = [](const cv::FileNode& side) {
-    return side.isInt() && static_cast<int>(side) >= 1 && static_cast<int>(side) <= kLargest;
+  const std::string where = place_of(node, file);
+  const auto side = [&](const char* key) {
+    return checked_integer(number_in_file(text_at(node, key, file), key, where), key, where, 1,
+                           kLargest);
   };
-  if (!is_side(rows) || !is_side(columns) ||
-      data.size() != static_cast<std::size_t>(static_cast<int>(rows) * static_cast<int>(columns))) {
+  const std::size_t count = static_cast<std::size_t>(side("rows") * side("cols"));
+  std::vector<double> values = numbers_in(node["data"], name, file);
+  if (values.size() != count) {
     throw Error(ErrorKind::kInput,
-                fmt::format("the matrix '{}' does not hold rows x cols numbers", node.name()),
-                where, "give the calibration as OpenCV wrote it");
-  }
-  std::vector<double> values;
-  for (const cv::FileNode& value : data) {
-    if (!value.isInt() && !value.isReal()) {
-      throw Error(ErrorKind::kInput, fmt::format("'{}' holds what is no number", node.name()),
-                  where, "give the calibration as OpenCV wrote it");
-    }
-    values.push_back(checked_number(static_cast<double>(value), node.name(), where));
+                fmt::format("the matrix '{}' does not hold rows x cols numbers", name), where,
+                "give the calibration as OpenCV wrote it");
   }
   return values;
 }
@@ -108,15 +76,20 @@ class StoredMatrices {
   const std::string& files() const { return files_; }
 
  private:
+  /// By yaml-cpp: OpenCV's own parser goes round for ever, ends the stack or makes room for
+  /// matrices that are not there. Its files are YAML but for the first line.
   void read(const path& file) {
-    const std::string text = read_file(file);
-    check_text(file, text);
-    reading(file, "is not OpenCV's YAML", [&] {
-      const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-      const cv::FileNode root = storage.root();
-      for (const cv::FileNode& node : root) {
-        if (!node.isMap() || !node["data"].isSeq()) continue;
-        matrices_[node.name()] = {values_of(node, file.string()), file.string()};
+    std::string text = read_file(file);
+    if (!text.starts_with(kOpencvYaml)) {
+      throw input_error(file, "does not begin with %YAML:1.0", "give the YAML that OpenCV wrote");
+    }
+    text.front() = '#';
+    reading_yaml(text, file, ErrorKind::kInput, [&](const YAML::Node& root) {
+      for (const auto& entry : root) {
+        const YAML::Node& node = entry.second;
+        if (!entry.first || !node.IsMap() || !node["data"] || !node["data"].IsSequence()) continue;
+        const std::string name = entry.first.Scalar();
+        matrices_[name] = {values_of(node, name, file), place_of(node, file)};
       }
     });
   }

@@ -45,6 +45,7 @@ std::vector<TextRow> read_text_table(const std::filesystem::path& path) {
     if (row.text.empty() || (row.text.starts_with('#') && !rows.empty())) continue;
     std::istringstream words(row.text);
     for (std::string word; words >> word;) row.words.push_back(word);
+    if (row.words.empty()) continue;  // of form feeds alone
     rows.push_back(std::move(row));
   }
   return rows;

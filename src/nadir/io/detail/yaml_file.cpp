@@ -9,9 +9,9 @@
 
 namespace nadir {
 
-YAML::Node load_yaml(const std::filesystem::path& path, ErrorKind kind) {
+YAML::Node parse_yaml(const std::string& text, const std::filesystem::path& path, ErrorKind kind) {
   try {
-    return YAML::Load(read_file(path));
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw Error(kind, "is not YAML: " + error.msg, file_and_line(path, error.mark.line + 1),
                 "correct the line");

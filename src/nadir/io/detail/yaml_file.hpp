@@ -15,20 +15,26 @@
 
 namespace nadir {
 
-/// Parses a file. Throws Error of `kind` with file:line.
-YAML::Node load_yaml(const std::filesystem::path& path, ErrorKind kind);
+/// Parses the text of a file. Throws Error of `kind` with file:line.
+YAML::Node parse_yaml(const std::string& text, const std::filesystem::path& path, ErrorKind kind);
 
 /// What `read` makes of a parsed file. Where a node is of another kind than is asked for, yaml-cpp
 /// throws; that becomes an Error of `kind` with file:line.
 template <class Read>
-auto reading_yaml(const std::filesystem::path& path, ErrorKind kind, const Read& read) {
-  const YAML::Node root = load_yaml(path, kind);
+auto reading_yaml(const std::string& text, const std::filesystem::path& path, ErrorKind kind,
+                  const Read& read) {
+  const YAML::Node root = parse_yaml(text, path, kind);
   try {
     return read(root);
   } catch (const YAML::Exception& error) {
     throw Error(kind, "has another form than is expected: " + error.msg,
                 file_and_line(path, error.mark.line + 1), "see docs/formats.md");
   }
+}
+
+template <class Read>
+auto reading_yaml(const std::filesystem::path& path, ErrorKind kind, const Read& read) {
+  return reading_yaml(read_file(path), path, kind, read);
 }
 
 /// The file:line of a node.
