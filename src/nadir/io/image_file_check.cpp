@@ -130,8 +130,9 @@ std::optional<DeclaredSize> tiff_size(std::string_view bytes) {
     const std::uint64_t type = tiff_number(bytes, entry + 2, 2);
     const int width = type == 3 ? 2 : type == 16 ? 8 : 4;
     const std::uint64_t value = tiff_number(bytes, entry + (big ? 12 : 8), width);
-    if (tag == 256) size.width = value;
-    if (tag == 257) size.height = value;
+    // Of a tag that is there twice, decoders differ in which they take.
+    if (tag == 256) size.width = std::max(size.width, value);
+    if (tag == 257) size.height = std::max(size.height, value);
   }
   return size.width > 0 && size.height > 0 ? std::optional(size) : std::nullopt;
 }
@@ -148,8 +149,11 @@ std::optional<DeclaredSize> pnm_size(std::string_view bytes) {
     }
     const char* begin = bytes.data() + position;
     const auto [end, error] = std::from_chars(begin, bytes.data() + bytes.size(), *side);
-    if (error != std::errc{}) return std::nullopt;
     position += static_cast<std::size_t>(end - begin);
+    // Decoders differ in what else may end a number.
+    const bool ended = position < bytes.size() &&
+                       std::string_view(" \t\r\n").find(bytes[position]) != std::string_view::npos;
+    if (error != std::errc{} || !ended) return std::nullopt;
   }
   return size;
 }

@@ -233,7 +233,10 @@ PhotoMetadata read_photo_metadata(const std::filesystem::path& path) {
   gdal_driver("JPEG");
   const GdalErrors errors;
   const GdalSetting no_side_files("GDAL_PAM_ENABLED", "NO");
-  const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  // Of GDAL's other drivers some make room for what a header declares when they open a file.
+  constexpr std::array<const char*, 4> kDrivers{"JPEG", "PNG", "GTiff", nullptr};
+  const GdalDataset dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers.data()));
   if (!dataset || dataset->GetRasterCount() == 0) {
     throw input_error(path, "is not an image that can be decoded",
                       "give JPEG, PNG or TIFF photos, or copy it again if it is damaged");
