@@ -15,8 +15,10 @@ import os
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -67,6 +69,8 @@ def fuzz(options, target, seconds):
                                    env={**os.environ, **SANITIZERS}, cwd=ROOT)
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
+    for parent in ("/dev/shm", tempfile.gettempdir()):  # libFuzzer ends without destructors
+        shutil.rmtree(f"{parent}/nadir-fuzz-{process.pid}", ignore_errors=True)
     text = log.read_text(encoding="utf-8", errors="replace")
     executions = EXECUTIONS.findall(text)
     edges = [int(number) for number in EDGES.findall(text)]
