@@ -12,7 +12,7 @@ NADIR_FUZZ_TARGET(manifest) {
   using nadir::fuzz::attempt;
   const std::filesystem::path run = nadir::fuzz::small_run();
   nadir::fuzz::as_file("run/manifest.json", input);
-  const nadir::cli::Json manifest = nadir::cli::read_manifest(run);
+  const nadir::Json manifest = nadir::cli::read_manifest(run);
   attempt([&] { nadir::cli::read_run(run, manifest); });
   attempt([&] { nadir::cli::settings_of(manifest); });
   attempt([&] { nadir::cli::provenance_of(manifest); });

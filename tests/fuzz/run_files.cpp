@@ -16,7 +16,7 @@ NADIR_FUZZ_TARGET(run_files) {
   nadir::fuzz::as_file("files_of_run/timing.csv", parts[3]);
   nadir::fuzz::as_file("files_of_run/truth.tum", parts[4]);
   nadir::fuzz::attempt([&] { nadir::cli::read_covariances(run / "covariance.csv"); });
-  const auto record = nadir::cli::read_run(run, nadir::cli::Json::object());
+  const auto record = nadir::cli::read_run(run, nadir::Json::object());
   for (const auto& frame : record.frames) {
     nadir::fuzz::require(frame.map_from_robot.is_finite(), "a pose is not finite");
   }
