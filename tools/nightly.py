@@ -33,8 +33,10 @@ PARTS = {
     "tidy": "make --no-print-directory tidy TIDY=--all",
     "web": "make --no-print-directory web && git diff --exit-code --stat -- web/dist && make --no-print-directory web-e2e",
     "scalar": "make --no-print-directory scalar",
-    "faults": "make --no-print-directory build && NADIR_FAULT_ROUNDS=20 NADIR_KILL_ROUNDS=100 "
-              "build/release/bin/faults_test",
+    "faults": "make --no-print-directory build && NADIR_FAULT_ROUNDS=20 "
+              "python3 -B tests/faults/faults_test.py build/release/bin/nadir",
+    "kills": "make --no-print-directory build && NADIR_FAULT_ROUNDS=100 "
+             "python3 -B tests/faults/faults_test.py build/release/bin/nadir Kill",
     "packages": "make --no-print-directory build && tests/packaging/run.sh find-package build/release "
                 "&& tests/packaging/run.sh add-subdirectory",
     **{f"fuzz-{part}": f"make --no-print-directory fuzz FUZZ_SECONDS=300 FUZZ_PART={part}/{FUZZ_PARTS}"

@@ -130,7 +130,7 @@ TEST(Image, RefusesASizeThatTheFileCannotHold) {
         std::pair{"b.pgm", std::string("P5\n30000 99999999999\n255\nabc")}}) {
     test::write_text(folder / name, bytes);
     expect_error(ErrorKind::kInput, {name, "its header declares 30000 x"},
-                 [&] { read_image(folder / name); });
+                 [&, &name = name] { read_image(folder / name); });
   }
   write_png(folder / "image.png", random_raster(40, 30, 1, 9));
   const std::string png = test::read_text(folder / "image.png");
