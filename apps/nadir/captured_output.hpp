@@ -12,6 +12,8 @@ class CapturedOutput {
   ~CapturedOutput();
   CapturedOutput(const CapturedOutput&) = delete;
   CapturedOutput& operator=(const CapturedOutput&) = delete;
+  CapturedOutput(CapturedOutput&&) = delete;
+  CapturedOutput& operator=(CapturedOutput&&) = delete;
 
   const std::string& text() const { return text_; }
 

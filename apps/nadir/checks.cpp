@@ -32,7 +32,7 @@ Check check_proj_data() {
 }
 
 Check check_memory() {
-  const double page = static_cast<double>(sysconf(_SC_PAGESIZE));
+  const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
   const double total = page * static_cast<double>(sysconf(_SC_PHYS_PAGES));
   const double free = page * static_cast<double>(sysconf(_SC_AVPHYS_PAGES));
   return {"memory", total > 0.0, false,

@@ -127,12 +127,14 @@ std::string fish_completion(const std::vector<VerbNode>& tree) {
   for (const VerbNode& node : tree) {
     const std::string start = "complete -c nadir -n " + quoted_for_fish(fish_condition(node));
     for (const auto& [verb, description] : node.verbs) {
-      text += start + " -f -a " + verb + " -d " + quoted_for_fish(description) + "\n";
+      text += fmt::format("{} -f -a {} -d {}\n", start, verb, quoted_for_fish(description));
     }
     for (const auto& [option, description] : node.long_options) {
-      text += start + " -l " + option + " -d " + quoted_for_fish(description) + "\n";
+      text += fmt::format("{} -l {} -d {}\n", start, option, quoted_for_fish(description));
     }
-    for (const std::string& option : node.short_options) text += start + " -s " + option + "\n";
+    for (const std::string& option : node.short_options) {
+      text += fmt::format("{} -s {}\n", start, option);
+    }
   }
   return text;
 }

@@ -5,7 +5,7 @@
 
 namespace nadir::cli {
 
-/// `convert map`, under the verb convert.
-void add_convert_map(CLI::App& convert, Invocation& invocation);
+/// `convert map`, under `parent`, the verb convert.
+void add_convert_map(CLI::App& parent, Invocation& invocation);
 
 }  // namespace nadir::cli

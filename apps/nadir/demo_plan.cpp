@@ -53,20 +53,20 @@ std::vector<std::string> simulate(const std::string& out, const Extent& extent,
 }  // namespace
 
 const std::vector<DemoMethod>& demo_methods() {
-  static const std::vector<DemoMethod> kMethods{
+  static const std::vector<DemoMethod> methods{
       {"ncc+PF", "run_ncc", {"--preset", "paper", "--score", "ncc"}},
       {"wncc+PF", "run_wncc", {"--preset", "paper"}},
       {"height", "run_height", {"--layers", "height"}},
       {"colour", "run_colour", {"--layers", "colour"}},
       {"default", "run", {}}};
-  return kMethods;
+  return methods;
 }
 
-DemoPlan plan_demo(const std::string& out, bool quick, std::uint64_t number) {
+DemoPlan plan_demo(const std::string& out, bool quick, std::uint64_t seed) {
   const Extent extent = quick ? quick_one() : whole();
-  const std::string seed = std::to_string(number);
+  const std::string seed_text = std::to_string(seed);
   DemoPlan plan;
-  plan.steps.push_back({"simulate", simulate(out, extent, seed)});
+  plan.steps.push_back({"simulate", simulate(out, extent, seed_text)});
   plan.map = out + "/campus.tif";
   std::string surface = out + "/campus.surface.tif";
   if (can_solve_poses()) {
@@ -84,10 +84,10 @@ DemoPlan plan_demo(const std::string& out, bool quick, std::uint64_t number) {
                          "-o", out + "/match"}});
   for (const DemoMethod& method : demo_methods()) {
     const std::string run = out + "/" + method.folder;
-    DemoStep step{
-        "localize",
-        {"localize", out + "/drive", "-o", run, "--frames",
-         fmt::format("{}:{}", kFirstFrame, extent.frames - 1), "--prior", "truth", "--seed", seed}};
+    DemoStep step{"localize",
+                  {"localize", out + "/drive", "-o", run, "--frames",
+                   fmt::format("{}:{}", kFirstFrame, extent.frames - 1), "--prior", "truth",
+                   "--seed", seed_text}};
     step.arguments.insert(step.arguments.end(), method.options.begin(), method.options.end());
     step.is_nadirs_own = &method == &demo_methods().back();
     plan.steps.push_back(std::move(step));

@@ -71,12 +71,11 @@ void add_drive_options(CLI::App& verb, DriveOptionsOfVerb& options) {
 }
 
 Spacing parse_spacing(const std::string& text) {
-  static const std::map<char, Spacing::Unit> kUnits{
+  static const std::map<char, Spacing::Unit> units{
       {'m', Spacing::Unit::kMetres}, {'s', Spacing::Unit::kSeconds}, {'f', Spacing::Unit::kFrames}};
   Spacing spacing{0.0, Spacing::Unit::kFrames};
   std::string number = text;
-  if (const auto unit = text.empty() ? kUnits.end() : kUnits.find(text.back());
-      unit != kUnits.end()) {
+  if (const auto unit = text.empty() ? units.end() : units.find(text.back()); unit != units.end()) {
     spacing.unit = unit->second;
     number.pop_back();
   }

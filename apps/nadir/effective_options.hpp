@@ -61,6 +61,9 @@ class EffectiveOptions {
   explicit EffectiveOptions(const OptionSources& sources);
   EffectiveOptions(const EffectiveOptions&) = delete;
   EffectiveOptions& operator=(const EffectiveOptions&) = delete;
+  EffectiveOptions(EffectiveOptions&&) = delete;
+  EffectiveOptions& operator=(EffectiveOptions&&) = delete;
+  ~EffectiveOptions() = default;
 
   /// Lets `--device` choose the backend; `auto` takes the GPU where one is usable and nobody named
   /// a backend.

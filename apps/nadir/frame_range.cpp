@@ -9,11 +9,12 @@
 namespace nadir::cli {
 namespace {
 
-int parse_frame_number(const std::string& text, const std::string& whole) {
+int parse_frame_number(const std::string& number_text, const std::string& range) {
   int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw Error(ErrorKind::kUsage, "'" + whole + "' is not a range of frame numbers", "--frames",
+  const auto [end, error] =
+      std::from_chars(number_text.data(), number_text.data() + number_text.size(), number);
+  if (error != std::errc{} || end != number_text.data() + number_text.size()) {
+    throw Error(ErrorKind::kUsage, "'" + range + "' is not a range of frame numbers", "--frames",
                 "write FIRST:LAST, both included");
   }
   return number;

@@ -90,11 +90,11 @@ Markup heading(const std::string& text) { return element("h2", "", escaped(text)
 Markup paragraph(const std::string& text) { return element("p", "", escaped(text)); }
 
 Markup headline(const std::string& text, bool good) {
-  return element("p", good ? " class=\"headline good\"" : " class=\"headline\"", escaped(text));
+  return element("p", good ? R"( class="headline good")" : R"( class="headline")", escaped(text));
 }
 
 Markup warning(const std::string& text) {
-  return element("p", " class=\"warn\" role=\"note\"", escaped(text));
+  return element("p", R"( class="warn" role="note")", escaped(text));
 }
 
 Markup code(const std::string& text) { return element("pre", "", escaped(text)); }

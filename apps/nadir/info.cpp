@@ -30,8 +30,8 @@ bool is_drive(const fs::path& folder) {
 }
 
 Json describe(const fs::path& path) {
-  static const std::set<std::string> kImages{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
-  static const std::set<std::string> kTrajectories{".tum", ".txt"};
+  static const std::set<std::string> images{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
+  static const std::set<std::string> trajectories{".tum", ".txt"};
   if (!is_file(path) && !is_folder(path)) {
     throw Error(ErrorKind::kInput, "there is no such file or folder", path.string());
   }
@@ -40,8 +40,8 @@ Json describe(const fs::path& path) {
     const bool site = is_file(path / "sequence.yaml") || !is_drive(path);
     return site ? describe_site(path) : describe_drive(path);
   }
-  if (kImages.contains(lower_extension(path))) return describe_image(path);
-  if (kTrajectories.contains(lower_extension(path))) return describe_trajectory(path);
+  if (images.contains(lower_extension(path))) return describe_image(path);
+  if (trajectories.contains(lower_extension(path))) return describe_trajectory(path);
   throw Error(
       ErrorKind::kInput, "unknown kind of file", path.string(),
       "info reads sites, recorded drives, ROS 1 bags, GeoTIFF, VRT, PNG, JPEG and TUM files "

@@ -26,6 +26,8 @@ class RunObserver {
   RunObserver() = default;
   RunObserver(const RunObserver&) = delete;
   RunObserver& operator=(const RunObserver&) = delete;
+  RunObserver(RunObserver&&) = delete;
+  RunObserver& operator=(RunObserver&&) = delete;
   virtual ~RunObserver() = default;
 
   /// After every frame, with the particles and weights that it left.

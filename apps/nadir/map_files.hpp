@@ -16,7 +16,7 @@ namespace nadir::cli {
 
 /// The files of a map: MAP.tif and its sisters MAP.surface.tif, MAP.views.tif and so on.
 struct MapFiles {
-  explicit MapFiles(const std::filesystem::path& map);
+  explicit MapFiles(const std::filesystem::path& path);
   std::filesystem::path map;
   std::filesystem::path surface;
   std::filesystem::path views;

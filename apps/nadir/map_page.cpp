@@ -148,8 +148,8 @@ std::string footprint(const PhotoPose& pose, double ground_z, const Overlay& ove
     const auto [x, y] = overlay.at(centre + ray * ((ground_z - centre.z()) / ray.z()));
     points += fmt::format("{:.1f},{:.1f} ", x, y);
   }
-  return "<polygon points=\"" + points +
-         "\" fill=\"#2b6cb0\" fill-opacity=\"0.05\" stroke=\"#2b6cb0\" stroke-width=\"1\"/>";
+  return R"(<polygon points=")" + points +
+         R"(" fill="#2b6cb0" fill-opacity="0.05" stroke="#2b6cb0" stroke-width="1"/>)";
 }
 
 const PhotoReport* report_of_photo(const AerialMap& map, const std::string& name) {
@@ -166,8 +166,8 @@ std::string footprints(const AerialMap& map, const Overlay& overlay) {
     drawing += footprint(pose, centre.z() - below, overlay);
     const auto [x, y] = overlay.at(centre);
     drawing += fmt::format(
-        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"#c53030\"><title>{}</title></circle>",
-        x, y, escaped(pose.name));
+        R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="#c53030"><title>{}</title></circle>)", x, y,
+        escaped(pose.name));
   }
   return drawing;
 }

@@ -30,7 +30,7 @@ bool is_map(const fs::path& path) {
 
 /// The page that `nadir map` wrote beside its map. Throws Error (input) where there is none.
 fs::path map_page_of(const fs::path& map) {
-  const fs::path page = MapFiles(map).page;
+  fs::path page = MapFiles(map).page;
   if (!is_file(map)) throw Error(ErrorKind::kInput, "there is no such map", map.string());
   if (!is_file(page)) {
     throw Error(ErrorKind::kInput, "has no page beside it", map.string(),
@@ -41,7 +41,7 @@ fs::path map_page_of(const fs::path& map) {
 
 fs::path written_page(const ReportOptions& options) {
   if (is_map(options.run)) {
-    const fs::path page = map_page_of(options.run);
+    fs::path page = map_page_of(options.run);
     if (options.output.empty()) return page;
     write_file(options.output, read_file(page));
     return options.output;

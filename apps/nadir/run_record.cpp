@@ -62,7 +62,7 @@ Judgement judge(const RunRecord& record) {
 /// whoever reads on may take it as such. What is missing is the reader's concern.
 class ManifestCheck {
  public:
-  explicit ManifestCheck(const fs::path& file) : file_(file) {}
+  explicit ManifestCheck(fs::path file) : file_(std::move(file)) {}
 
   using Kind = bool (Json::*)() const noexcept;
 

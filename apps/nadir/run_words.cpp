@@ -134,7 +134,7 @@ RunWords words_of(const RunRecord& run) {
   words.headline = fmt::format("{}: {} of {} compared with the map. {}", verdict(run),
                                compared(run), frames_text(run.frames.size()), accuracy(run));
   if (was_interrupted(run)) {
-    words.warnings.push_back("The run was interrupted: this is what was done until then.");
+    words.warnings.emplace_back("The run was interrupted: this is what was done until then.");
   }
   if (!run.truth_problem.empty()) {
     words.warnings.push_back("The truth could not be used: " + run.truth_problem + ".");

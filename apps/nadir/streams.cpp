@@ -34,6 +34,7 @@ std::atomic<bool> expected_document{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 bool colours_wanted() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets the environment
   const char* no_color = std::getenv("NO_COLOR");
   return isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
 }
@@ -57,7 +58,7 @@ void print(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) return;
-  throw Error(ErrorKind::kProcessing, std::strerror(errno), "standard output");
+  throw Error(ErrorKind::kProcessing, std::generic_category().message(errno), "standard output");
 }
 
 void print(const Json& document) {

@@ -27,6 +27,8 @@ class HttpConnection final : public httplib::Stream {
   ~HttpConnection() override;
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
+  HttpConnection(HttpConnection&&) = delete;
+  HttpConnection& operator=(HttpConnection&&) = delete;
 
   enum class Head {
     kComplete,     ///< read() gives it, and then the body

@@ -25,6 +25,8 @@ class HttpServer : private httplib::Server {
   ~HttpServer() override;
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
+  HttpServer(HttpServer&&) = delete;
+  HttpServer& operator=(HttpServer&&) = delete;
 
   using httplib::Server::Get;
   using httplib::Server::Post;

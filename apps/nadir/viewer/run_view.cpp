@@ -72,7 +72,7 @@ Json corners_on_earth(const MapTiles& tiles) {
 
 fs::path source(const Json& manifest, const char* role, const fs::path& given,
                 const fs::path& run) {
-  const fs::path named = !given.empty() ? given : source_in(manifest, role);
+  fs::path named = !given.empty() ? given : source_in(manifest, role);
   if (!named.empty() && fs::exists(named)) return named;
   const std::string what =
       named.empty() ? std::string("does not say where its ") + role + " is"
@@ -100,13 +100,13 @@ LocalizerOptions options_of(const Json& manifest) {
 
 }  // namespace
 
-RunView::RunView(const RunSources& sources, const LocalizerOptions& options,
-                 const fs::path& particle_file, bool live)
-    : sources_(sources),
-      sequence_(sources.site.empty() ? Sequence{} : read_sequence(sources.site)),
+RunView::RunView(RunSources sources, const LocalizerOptions& options, fs::path particle_file,
+                 bool live)
+    : sources_(std::move(sources)),
+      sequence_(sources_.site.empty() ? Sequence{} : read_sequence(sources_.site)),
       options_(options),
-      particle_file_(particle_file),
-      tiles_(std::make_unique<MapTiles>(sources.map)),
+      particle_file_(std::move(particle_file)),
+      tiles_(std::make_unique<MapTiles>(sources_.map)),
       live_(live) {}
 
 std::unique_ptr<RunView> RunView::open(const fs::path& run, RunSources sources) {

@@ -29,8 +29,8 @@ struct RunSources {
 class RunView {
  public:
   /// An empty run that will grow by add(). Throws Error (input) where site or map cannot be read.
-  RunView(const RunSources& sources, const LocalizerOptions& options,
-          const std::filesystem::path& particle_file, bool live);
+  RunView(RunSources sources, const LocalizerOptions& options, std::filesystem::path particle_file,
+          bool live);
   /// A finished run. Where the manifest's site or map has moved, `sources` says where to; else they
   /// are empty. Throws Error (input).
   static std::unique_ptr<RunView> open(const std::filesystem::path& run, RunSources sources);

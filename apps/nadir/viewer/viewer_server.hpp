@@ -31,6 +31,8 @@ class ViewerServer {
   ~ViewerServer();
   ViewerServer(const ViewerServer&) = delete;
   ViewerServer& operator=(const ViewerServer&) = delete;
+  ViewerServer(ViewerServer&&) = delete;
+  ViewerServer& operator=(ViewerServer&&) = delete;
 
   /// Binds and answers on threads of its own. Throws Error (usage) where the address cannot be
   /// bound.

@@ -82,7 +82,8 @@ struct DeclaredSize {
 std::optional<DeclaredSize> png_size(std::string_view bytes) {
   constexpr std::size_t kWidth = 16;
   if (bytes.size() < kWidth + 8) return std::nullopt;
-  return DeclaredSize{big_endian(bytes, kWidth, 4), big_endian(bytes, kWidth + 4, 4), 8 * 1032};
+  return DeclaredSize{big_endian(bytes, kWidth, 4), big_endian(bytes, kWidth + 4, 4),
+                      std::uint64_t{8} * 1032};
 }
 
 /// Of the first start-of-frame segment. A block of 8 x 8 pixels takes a bit and more.
@@ -94,7 +95,7 @@ std::optional<DeclaredSize> jpeg_size(std::string_view bytes) {
         marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (frame) {
       return DeclaredSize{big_endian(bytes, position + 6, 2), big_endian(bytes, position + 4, 2),
-                          8 * 64};
+                          std::uint64_t{8} * 64};
     }
     const bool bare = marker >= 0xd0 && marker <= 0xd8;
     position = next_marker(bytes, position + 1 + (bare ? 0 : big_endian(bytes, position + 1, 2)));

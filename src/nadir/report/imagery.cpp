@@ -123,7 +123,9 @@ void draw_hatching(Canvas& canvas, const Box& box) {
   constexpr double kSpacing = 14.0;
   canvas.clip(box);
   canvas.fill(box.corners(), kNothing);
-  for (double x = box.left - box.height; x < box.right(); x += kSpacing) {
+  const int lines = static_cast<int>(std::ceil((box.width + box.height) / kSpacing));
+  for (int i = 0; i < lines; ++i) {
+    const double x = box.left - box.height + kSpacing * i;
     canvas.line({{x, box.bottom()}, {x + box.height, box.top}}, {kHatching, 2.0, {}, 0.0});
   }
   canvas.unclip();

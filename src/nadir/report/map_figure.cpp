@@ -60,15 +60,17 @@ double tick_room(const Region& region) {
 
 double legend_height(double width, std::size_t entries) {
   const auto columns = static_cast<std::size_t>(columns_in(width));
-  return kEntryHeight * static_cast<double>((entries + columns - 1) / columns);
+  const std::size_t rows = (entries + columns - 1) / columns;
+  return kEntryHeight * static_cast<double>(rows);
 }
 
 void draw_legend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& entries) {
   const auto columns = static_cast<std::size_t>(columns_in(box.width));
   const double width = box.width / static_cast<double>(columns);
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t row = i / columns;
     const double left = box.left + width * static_cast<double>(i % columns);
-    const double top = box.top + kEntryHeight * static_cast<double>(i / columns);
+    const double top = box.top + kEntryHeight * static_cast<double>(row);
     const double text = left + kSampleWidth + 18.0;
     const double room = width - kSampleWidth - 48.0;
     const bool two_lines = !entries[i].detail.empty();

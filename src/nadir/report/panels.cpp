@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "nadir/report/axes.hpp"
 #include "nadir/report/figures.hpp"
@@ -72,16 +73,16 @@ void draw_names(Canvas& canvas, const Panel& panel, const Box& header) {
   const TextStyle style{20.0, kInk, Align::kLeft, false, {}};
   double right = header.right();
   const std::vector<Key> keys = keys_of(panel);
-  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-    const double width = text_width(key->name, style);
+  for (const Key& key : std::views::reverse(keys)) {
+    const double width = text_width(key.name, style);
     const double text = right - width;
     const double y = header.centre().y + 6.0;
     if (text - 52.0 < header.left + 0.35 * header.width) return;  // the panel's own label is there
-    canvas.text({text, y}, key->name, style);
-    if (key->is_band) {
+    canvas.text({text, y}, key.name, style);
+    if (key.is_band) {
       canvas.fill(Box{text - 46.0, y - 8.0, 34.0, 16.0}.corners(), kBandColour, kBandOpacity);
     } else {
-      canvas.line({{text - 46.0, y}, {text - 12.0, y}}, {curve_colour(key->index), 4.0, {}, 0.0});
+      canvas.line({{text - 46.0, y}, {text - 12.0, y}}, {curve_colour(key.index), 4.0, {}, 0.0});
     }
     right = text - 46.0 - 30.0;
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "nadir/report/axes.hpp"
 #include "nadir/report/charts.hpp"
@@ -96,14 +97,14 @@ void draw_keys(SvgSheet& sheet, const Panel& panel, const Box& header) {
   const std::vector<Key> keys = keys_of(panel);
   const double y = header.bottom() - 9.0;
   double right = header.right();
-  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-    const double text = right - svg_text_width(key->name);
+  for (const Key& key : std::views::reverse(keys)) {
+    const double text = right - svg_text_width(key.name);
     if (text - 24.0 < header.left + svg_text_width(panel.y_label)) return;
-    sheet.text({text, y}, key->name, "start");
-    if (key->is_band) {
+    sheet.text({text, y}, key.name, "start");
+    if (key.is_band) {
       sheet.rectangle({text - 22.0, y - 9.0, 17.0, 9.0}, "band");
     } else {
-      sheet.line({text - 22.0, y - 4.0}, {text - 5.0, y - 4.0}, "curve " + curve_class(key->index));
+      sheet.line({text - 22.0, y - 4.0}, {text - 5.0, y - 4.0}, "curve " + curve_class(key.index));
     }
     right = text - 34.0;
   }

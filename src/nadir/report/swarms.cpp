@@ -46,9 +46,10 @@ std::vector<Box> grid(const Box& area, std::size_t count) {
   std::size_t best_columns = 1;
   double best_side = 0.0;
   for (std::size_t columns = 1; columns <= count; ++columns) {
-    const auto rows = static_cast<double>((count + columns - 1) / columns);
+    const std::size_t rows = (count + columns - 1) / columns;
     const double across = (area.width + kInsetGap) / static_cast<double>(columns) - kInsetGap;
-    const double down = (area.height + kInsetGap) / rows - kInsetGap - kCaption;
+    const double down =
+        (area.height + kInsetGap) / static_cast<double>(rows) - kInsetGap - kCaption;
     const double side = std::min(across, down);
     if (side > best_side) {
       best_side = side;
@@ -57,11 +58,12 @@ std::vector<Box> grid(const Box& area, std::size_t count) {
   }
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto column = static_cast<double>(i % best_columns);
-    const auto row = static_cast<double>(i / best_columns);
-    boxes.push_back({area.left + column * (best_side + kInsetGap),
-                     area.top + kCaption + row * (best_side + kInsetGap + kCaption), best_side,
-                     best_side});
+    const std::size_t column = i % best_columns;
+    const std::size_t row = i / best_columns;
+    boxes.push_back(
+        {area.left + static_cast<double>(column) * (best_side + kInsetGap),
+         area.top + kCaption + static_cast<double>(row) * (best_side + kInsetGap + kCaption),
+         best_side, best_side});
   }
   return boxes;
 }
@@ -91,7 +93,8 @@ Layout lay_out_above(const Region& region, std::size_t count) {
   layout.overview = fit(region, {left, kMargin + kTitleHeight, kWidth, 900.0});
   const Box& map = layout.overview.box;
   const double top = map.bottom() + kTickRoom + 14.0;
-  const auto rows = static_cast<double>((count + 3) / 4);
+  const std::size_t full_rows = (count + 3) / 4;
+  const auto rows = static_cast<double>(full_rows);
   layout.insets =
       grid({left, top, map.width, rows * (kInset + kCaption) + (rows - 1.0) * kInsetGap}, count);
   double bottom = top;

@@ -42,9 +42,9 @@ std::string spelled(std::string_view text) {
        {"≤", "<="}}};
   std::string result;
   while (!text.empty()) {
-    const auto spelling = std::find_if(kSpellings.begin(), kSpellings.end(), [&](const auto& pair) {
-      return text.substr(0, pair.first.size()) == pair.first;
-    });
+    const auto* const spelling = std::find_if(
+        kSpellings.begin(), kSpellings.end(),
+        [&](const auto& pair) { return text.substr(0, pair.first.size()) == pair.first; });
     const auto lead = static_cast<unsigned char>(text.front());
     if (spelling != kSpellings.end()) {
       result += spelling->second;

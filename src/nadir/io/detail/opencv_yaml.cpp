@@ -30,7 +30,8 @@ std::vector<double> values_of(const YAML::Node& node, const std::string& name, c
     return checked_integer(number_in_file(text_at(node, key, file), key, where), key, where, 1,
                            kLargest);
   };
-  const std::size_t count = static_cast<std::size_t>(side("rows") * side("cols"));
+  const auto count =
+      static_cast<std::size_t>(side("rows")) * static_cast<std::size_t>(side("cols"));
   std::vector<double> values = numbers_in(node["data"], name, file);
   if (values.size() != count) {
     throw Error(ErrorKind::kInput,

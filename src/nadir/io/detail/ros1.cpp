@@ -109,6 +109,13 @@ const char* layout_of<tf2_msgs::TFMessage>() {
   return "(444v1v18888888)";
 }
 
+std::vector<std::uint8_t> bytes_of(const rosbag::MessageInstance& message) {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream out(bytes.data(), message.size());
+  message.write(out);
+  return bytes;
+}
+
 }  // namespace
 
 struct Bag::Contents {
@@ -119,7 +126,6 @@ struct Bag::Contents {
 
   void open();
   const std::vector<rosbag::MessageInstance>& of(const std::string& topic) const;
-  std::vector<std::uint8_t> bytes_of(const rosbag::MessageInstance& message) const;
 
   template <class Message>
   boost::shared_ptr<Message> instance(const rosbag::MessageInstance& message) const;
@@ -150,13 +156,6 @@ const std::vector<rosbag::MessageInstance>& Bag::Contents::of(const std::string&
   return found->second;
 }
 
-std::vector<std::uint8_t> Bag::Contents::bytes_of(const rosbag::MessageInstance& message) const {
-  std::vector<std::uint8_t> bytes(message.size());
-  ros::serialization::OStream out(bytes.data(), message.size());
-  message.write(out);
-  return bytes;
-}
-
 /// As MessageInstance::instantiate does, once the message is known to hold what it declares: the
 /// lists of a message are made as long as they say before they are read.
 template <class Message>
@@ -171,7 +170,7 @@ boost::shared_ptr<Message> Bag::Contents::instance(const rosbag::MessageInstance
     throw input_error(file, "a message of " + message.getTopic() + " is damaged",
                       "leave it out with --first and --count");
   }
-  const boost::shared_ptr<Message> result(new Message);
+  boost::shared_ptr<Message> result(new Message);
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::deserialize(in, *result);
   return result;
@@ -202,7 +201,7 @@ std::vector<Header> Bag::headers(const std::string& topic) const {
   return reading(file(), [&] {
     std::vector<Header> headers;
     for (const rosbag::MessageInstance& message : contents_->of(topic)) {
-      std::vector<std::uint8_t> bytes = contents_->bytes_of(message);
+      std::vector<std::uint8_t> bytes = bytes_of(message);
       if (!has_layout({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, kHeaderLayout)) {
         throw input_error(file(), "a message of " + topic + " begins with no header");
       }
