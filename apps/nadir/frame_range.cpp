@@ -9,11 +9,10 @@
 namespace nadir::cli {
 namespace {
 
-int parse_frame_number(const std::string& number_text, const std::string& range) {
+int parse_frame_number(const std::string& digits, const std::string& range) {
   int number = 0;
-  const auto [end, error] =
-      std::from_chars(number_text.data(), number_text.data() + number_text.size(), number);
-  if (error != std::errc{} || end != number_text.data() + number_text.size()) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc{} || end != digits.data() + digits.size()) {
     throw Error(ErrorKind::kUsage, "'" + range + "' is not a range of frame numbers", "--frames",
                 "write FIRST:LAST, both included");
   }
@@ -31,10 +30,10 @@ FrameRange parse_frame_range(const std::string& text) {
   FrameRange range;
   if (text.empty()) return range;
   const std::size_t colon = text.find(':');
-  const std::string first = text.substr(0, colon);
-  const std::string last = colon == std::string::npos ? first : text.substr(colon + 1);
-  if (!first.empty()) range.first = parse_frame_number(first, text);
-  if (!last.empty()) range.last = parse_frame_number(last, text);
+  const std::string from = text.substr(0, colon);
+  const std::string to = colon == std::string::npos ? from : text.substr(colon + 1);
+  if (!from.empty()) range.first = parse_frame_number(from, text);
+  if (!to.empty()) range.last = parse_frame_number(to, text);
   if (range.first > range.last) {
     throw Error(ErrorKind::kUsage, "the range " + text + " ends before it begins", "--frames");
   }

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <random>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "nadir/core/error.hpp"
@@ -122,7 +123,7 @@ bool exchange(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-UnfinishedFolder::UnfinishedFolder(const fs::path& target) : target_(target) {
+UnfinishedFolder::UnfinishedFolder(fs::path target) : target_(std::move(target)) {
   constexpr int kAttempts = 100;
   for (int i = 0; i < kAttempts; ++i) {
     if (make()) return;

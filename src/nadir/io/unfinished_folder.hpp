@@ -12,7 +12,7 @@ namespace nadir {
 class UnfinishedFolder {
  public:
   /// Throws Error (processing) where it cannot be made.
-  explicit UnfinishedFolder(const std::filesystem::path& target);
+  explicit UnfinishedFolder(std::filesystem::path target);
   ~UnfinishedFolder();
   UnfinishedFolder(const UnfinishedFolder&) = delete;
   UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;

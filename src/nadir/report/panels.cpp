@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "nadir/report/axes.hpp"
 #include "nadir/report/figures.hpp"
@@ -72,8 +71,9 @@ void draw_curve(Canvas& canvas, const Plot& plot, const Curve& curve, Colour col
 void draw_names(Canvas& canvas, const Panel& panel, const Box& header) {
   const TextStyle style{20.0, kInk, Align::kLeft, false, {}};
   double right = header.right();
-  const std::vector<Key> keys = keys_of(panel);
-  for (const Key& key : std::views::reverse(keys)) {
+  std::vector<Key> keys = keys_of(panel);
+  std::ranges::reverse(keys);
+  for (const Key& key : keys) {
     const double width = text_width(key.name, style);
     const double text = right - width;
     const double y = header.centre().y + 6.0;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "nadir/report/axes.hpp"
 #include "nadir/report/charts.hpp"
@@ -94,10 +93,11 @@ void draw_grid(SvgSheet& sheet, const Plot& plot, double x_step, double y_step, 
 
 /// Names of curves and bands from the right end of the header leftwards.
 void draw_keys(SvgSheet& sheet, const Panel& panel, const Box& header) {
-  const std::vector<Key> keys = keys_of(panel);
+  std::vector<Key> keys = keys_of(panel);
+  std::ranges::reverse(keys);
   const double y = header.bottom() - 9.0;
   double right = header.right();
-  for (const Key& key : std::views::reverse(keys)) {
+  for (const Key& key : keys) {
     const double text = right - svg_text_width(key.name);
     if (text - 24.0 < header.left + svg_text_width(panel.y_label)) return;
     sheet.text({text, y}, key.name, "start");

@@ -193,11 +193,11 @@ class BagWalk {
   /// Without an index rosbag says so itself.
   void check_index() const {
     if (index_position_ == 0) return;
-    if (index_position_ != size_ && starts_.count(index_position_) == 0) {
+    if (index_position_ != size_ && !starts_.contains(index_position_)) {
       fail(index_position_, "there is no index, though the file's first record says so");
     }
     for (const std::uint64_t position : listed_chunks_) {
-      if (chunks_.count(position) == 0) fail(position, "there is no chunk, though one is listed");
+      if (!chunks_.contains(position)) fail(position, "there is no chunk, though one is listed");
     }
   }
 
