@@ -337,6 +337,9 @@ void maps(const fs::path& corpus) {
   heights.values = {12};
   heights.nodata = "-9999";
   test::write_tiff(corpus / "elevation/float.tif", heights);
+  write_text(corpus / "elevation/grid.asc",
+             "ncols 3\nnrows 2\nxllcorner 1000\nyllcorner 2000\ncellsize 0.5\n"
+             "NODATA_value -9999\n1.5 2.5 -9999\n4 5 6\n");
   for (const char* name : {"turned.tif", "deep.tif"}) {
     write_text(corpus / "orthomosaic_import" / name, '\x01' + read_text(corpus / name));
     fs::remove(corpus / name);
