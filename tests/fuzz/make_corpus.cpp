@@ -293,6 +293,12 @@ void bags(const fs::path& corpus) {
   fs::create_directories(corpus / "rosbag");
   small_bag(corpus / "rosbag/stereo.bag", true);
   small_bag(corpus / "rosbag/lidar.bag", false);
+  const std::string lidar = read_text(corpus / "rosbag/lidar.bag");
+  const std::string chunk = test::chunk_of(lidar);
+  write_text(corpus / "rosbag/lidar_bz2.bag",
+             test::with_chunk(lidar, "bz2", test::packed_bz2(chunk), chunk.size()));
+  write_text(corpus / "rosbag/lidar_lz4.bag",
+             test::with_chunk(lidar, "lz4", test::packed_lz4(chunk), chunk.size()));
   std::string cloud = raw(2U) + raw(1U) + raw(16U) + raw(32U) + '\0' + '\x04';
   for (const std::uint32_t field : {0U, 1U, 2U, 3U}) {
     cloud += static_cast<char>(field) + std::string("\x07") + raw(4 * field) + raw(1U);
