@@ -30,15 +30,15 @@ endif()
 if(Ceres_FOUND AND NOT NADIR_WITH_SFM STREQUAL "OFF")
   set(NADIR_HAS_SFM ON)
 endif()
-# ROS 1 bags are read where their library is there.
+# ROS 1 bags are read where the definitions of their messages are there.
 set(NADIR_HAS_ROSBAG OFF)
 if(NOT NADIR_WITH_ROSBAG STREQUAL "OFF")
   include(FindRosbagStorage)  # nadir_rosbag
   if(TARGET nadir_rosbag)
     set(NADIR_HAS_ROSBAG ON)
   elseif(NADIR_WITH_ROSBAG STREQUAL "ON")
-    message(FATAL_ERROR "librosbag_storage or a message of ROS was not found: install librosbag-storage-dev "
-                        "libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev")
+    message(FATAL_ERROR "A message of ROS, bzip2 or LZ4 was not found: install libroscpp-core-dev libsensor-msgs-dev "
+                        "libnav-msgs-dev libtf2-msgs-dev libbz2-dev liblz4-dev")
   endif()
 endif()
 if(NADIR_BUILD_APPS)

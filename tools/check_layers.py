@@ -38,6 +38,8 @@ THIRD_PARTIES = {
     "Ceres": r"ceres/",
     "CUDA": r"(cuda|cufft)\w*\.h$|cub/|thrust/",
     "ROS bag": r"(rosbag|ros|console_bridge|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|tf2_msgs)/",
+    "bzip2": r"bzlib\.h$",
+    "LZ4": r"lz4\w*\.h$",
     "POSIX": r"(unistd|fcntl|signal|poll|sched|spawn|termios)\.h$|sys/\w+\.h$",
 }
 COMPUTING = {"Eigen", "OpenCV", "oneTBB"}
@@ -48,7 +50,8 @@ ALLOWED = {
     "aerial_mapping": COMPUTING | {"Ceres"},
     "simulation": COMPUTING,
     "report": COMPUTING | {"fmt"},
-    "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX", "ROS bag"},
+    "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX", "ROS bag",
+                       "bzip2", "LZ4"},
     ROOT: COMPUTING,
     APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "cpp-httplib", "POSIX"},
 }

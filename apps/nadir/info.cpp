@@ -30,7 +30,8 @@ bool is_drive(const fs::path& folder) {
 }
 
 Json describe(const fs::path& path) {
-  static const std::set<std::string> images{".tif", ".tiff", ".vrt", ".png", ".jpg", ".jpeg"};
+  static const std::set<std::string> images{".tif", ".tiff", ".vrt", ".png",
+                                            ".jpg", ".jpeg", ".asc"};
   static const std::set<std::string> trajectories{".tum", ".txt"};
   if (!is_file(path) && !is_folder(path)) {
     throw Error(ErrorKind::kInput, "there is no such file or folder", path.string());
@@ -44,8 +45,8 @@ Json describe(const fs::path& path) {
   if (trajectories.contains(lower_extension(path))) return describe_trajectory(path);
   throw Error(
       ErrorKind::kInput, "unknown kind of file", path.string(),
-      "info reads sites, recorded drives, ROS 1 bags, GeoTIFF, VRT, PNG, JPEG and TUM files "
-      "(.tum, .txt)");
+      "info reads sites, recorded drives, ROS 1 bags, GeoTIFF, VRT, PNG, JPEG, ASCII grids (.asc) "
+      "and TUM files (.tum, .txt)");
 }
 
 /// "key: value" lines, nested by indentation.

@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 
+#include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir::cli {
@@ -28,11 +29,23 @@ constexpr std::array<RunPicture, 4> kPictures{{
      "How many local maps show each place, holes left out, laid down at the estimated poses."},
 }};
 
+/// What lies in the folder of a run need not be what the run wrote.
+bool is_sound_png(const fs::path& file, const std::string& png) {
+  try {
+    check_image_size(file, png);
+    return image_format(png) == ImageFormat::kPng;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// A picture of imagery is several times smaller as JPEG, and looks alike.
-std::string small_data_uri(const std::string& png) {
+std::string small_data_uri(const fs::path& file, const std::string& png) {
   constexpr std::size_t kLargestPng = 300'000;  // bytes
   constexpr int kQuality = 88;
-  if (png.size() <= kLargestPng) return html::data_uri("image/png", png);
+  if (png.size() <= kLargestPng || !is_sound_png(file, png)) {
+    return html::data_uri("image/png", png);
+  }
   const cv::Mat image = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_COLOR);
   std::vector<std::uint8_t> jpeg;
   if (image.empty() || !cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality})) {
@@ -49,7 +62,7 @@ html::Markup pictures_in(const fs::path& folder) {
     const fs::path file = folder / picture.file;
     if (!fs::is_regular_file(file)) continue;
     figures.push_back(html::figure(
-        html::image(small_data_uri(read_file(file)), picture.alternative), picture.caption));
+        html::image(small_data_uri(file, read_file(file)), picture.alternative), picture.caption));
   }
   if (figures.empty()) return {};
   return html::heading("On the map") + html::side_by_side(figures);

@@ -82,7 +82,7 @@ THROUGH = {
     "read_stereo_from_files": "open_drive",
     "read_lidar_from_files": "open_drive",
     "read_geo_reference": "read_orthomosaic",
-    "open_image": "read_orthomosaic",
+    "open_raster": "read_orthomosaic",
     "check_image_size": "decode_image",
     "read_band": "read_orthomosaic",
     "read_validity": "read_orthomosaic",

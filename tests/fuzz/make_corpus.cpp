@@ -293,6 +293,12 @@ void bags(const fs::path& corpus) {
   fs::create_directories(corpus / "rosbag");
   small_bag(corpus / "rosbag/stereo.bag", true);
   small_bag(corpus / "rosbag/lidar.bag", false);
+  const std::string lidar = read_text(corpus / "rosbag/lidar.bag");
+  const std::string chunk = test::chunk_of(lidar);
+  write_text(corpus / "rosbag/lidar_bz2.bag",
+             test::with_chunk(lidar, "bz2", test::packed_bz2(chunk), chunk.size()));
+  write_text(corpus / "rosbag/lidar_lz4.bag",
+             test::with_chunk(lidar, "lz4", test::packed_lz4(chunk), chunk.size()));
   std::string cloud = raw(2U) + raw(1U) + raw(16U) + raw(32U) + '\0' + '\x04';
   for (const std::uint32_t field : {0U, 1U, 2U, 3U}) {
     cloud += static_cast<char>(field) + std::string("\x07") + raw(4 * field) + raw(1U);
@@ -337,6 +343,9 @@ void maps(const fs::path& corpus) {
   heights.values = {12};
   heights.nodata = "-9999";
   test::write_tiff(corpus / "elevation/float.tif", heights);
+  write_text(corpus / "elevation/grid.asc",
+             "ncols 3\nnrows 2\nxllcorner 1000\nyllcorner 2000\ncellsize 0.5\n"
+             "NODATA_value -9999\n1.5 2.5 -9999\n4 5 6\n");
   for (const char* name : {"turned.tif", "deep.tif"}) {
     write_text(corpus / "orthomosaic_import" / name, '\x01' + read_text(corpus / name));
     fs::remove(corpus / name);

@@ -2,6 +2,8 @@
 // Compiled as C++17: nadir/io/detail/ros1.hpp says why.
 #include "io/bag_writer.hpp"
 
+#include <bzlib.h>
+#include <lz4frame.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -11,6 +13,8 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <cstring>
+#include <stdexcept>
 
 namespace nadir::test {
 namespace {
@@ -43,16 +47,84 @@ void fill_vector(Vector& v, const std::array<double, 3>& xyz) {
   v.z = xyz[2];
 }
 
+template <class T>
+T number_at(const std::string& bytes, std::size_t position) {
+  T value{};
+  std::memcpy(&value, bytes.data() + position, sizeof(T));
+  return value;
+}
+
+std::string bytes_of(std::size_t number) {
+  const auto value = static_cast<std::uint32_t>(number);
+  std::string bytes(sizeof(value), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(value));
+  return bytes;
+}
+
+std::string sized(const std::string& text) { return bytes_of(text.size()) + text; }
+
+/// Where the record of the chunk begins, its data, and what follows it.
+struct ChunkPlace {
+  explicit ChunkPlace(const std::string& bag) {
+    begin = bag.find("compression=") - 8;
+    data = begin + 8 + number_at<std::uint32_t>(bag, begin);
+    end = data + number_at<std::uint32_t>(bag, data - 4);
+  }
+  std::size_t begin = 0;
+  std::size_t data = 0;
+  std::size_t end = 0;
+};
+
 }  // namespace
+
+std::string packed_lz4(const std::string& bytes) {
+  std::string packed(LZ4F_compressFrameBound(bytes.size(), nullptr), '\0');
+  packed.resize(
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
+  return packed;
+}
+
+std::string chunk_of(const std::string& bag) {
+  const ChunkPlace place(bag);
+  return bag.substr(place.data, place.end - place.data);
+}
+
+std::string with_chunk(const std::string& bag, const std::string& compression,
+                       const std::string& packed, std::size_t unpacked) {
+  const ChunkPlace place(bag);
+  const std::string header =
+      sized("compression=" + compression) + sized("op=\x05") + sized("size=" + bytes_of(unpacked));
+  std::string result =
+      bag.substr(0, place.begin) + sized(header) + sized(packed) + bag.substr(place.end);
+  const std::size_t index = result.find("index_pos=") + 10;
+  const std::uint64_t moved = number_at<std::uint64_t>(result, index) + result.size() - bag.size();
+  std::memcpy(result.data() + index, &moved, sizeof(moved));
+  return result;
+}
+
+std::string packed_bz2(std::string bytes) {
+  std::string packed(bytes.size() + bytes.size() / 50 + 1000, '\0');
+  auto size = static_cast<unsigned>(packed.size());
+  if (BZ2_bzBuffToBuffCompress(packed.data(), &size, bytes.data(),
+                               static_cast<unsigned>(bytes.size()), 9, 0, 0) != BZ_OK) {
+    throw std::runtime_error("the test cannot compress its chunk");
+  }
+  packed.resize(size);
+  return packed;
+}
 
 struct BagWriter::Contents {
   rosbag::Bag bag;
 };
 
-BagWriter::BagWriter(const std::filesystem::path& file, bool chunk_compression)
+BagWriter::BagWriter(const std::filesystem::path& file, BagCompression compression)
     : contents_(std::make_unique<Contents>()) {
   contents_->bag.open(file.string(), rosbag::bagmode::Write);
-  if (chunk_compression) contents_->bag.setCompression(rosbag::compression::LZ4);
+  if (compression == BagCompression::kLz4) {
+    contents_->bag.setCompression(rosbag::compression::LZ4);
+  } else if (compression == BagCompression::kBz2) {
+    contents_->bag.setCompression(rosbag::compression::BZ2);
+  }
 }
 
 BagWriter::~BagWriter() = default;

@@ -12,10 +12,22 @@
 
 namespace nadir::test {
 
+enum class BagCompression { kNone, kLz4, kBz2 };
+
+/// As the chunks of a bag are compressed.
+std::string packed_bz2(std::string bytes);
+std::string packed_lz4(const std::string& bytes);
+
+/// What the only chunk of a bag holds, and the bag with another one in its place; `unpacked` is the
+/// size that it declares.
+std::string chunk_of(const std::string& bag);
+std::string with_chunk(const std::string& bag, const std::string& compression,
+                       const std::string& packed, std::size_t unpacked);
+
 class BagWriter {
  public:
-  /// `chunk_compression`: none, or rosbag's lz4.
-  explicit BagWriter(const std::filesystem::path& file, bool chunk_compression = false);
+  explicit BagWriter(const std::filesystem::path& file,
+                     BagCompression compression = BagCompression::kNone);
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;

@@ -137,7 +137,7 @@ TEST_F(ForeignOrthomosaic, RefusesDamagedFiles) {
   expect_error(ErrorKind::kInput, {"none.tif", "no such file"},
                [&] { read_orthomosaic(folder_ / "none.tif"); });
   test::write_text(folder_ / "text.tif", "hello");
-  expect_error(ErrorKind::kInput, {"text.tif", "not an image that GDAL can open"},
+  expect_error(ErrorKind::kInput, {"text.tif", "not a raster of a format that is read"},
                [&] { read_orthomosaic(folder_ / "text.tif"); });
   test::write_text(folder_ / "pointer.tif", "version https://git-lfs.github.com/spec/v1\n");
   expect_error(ErrorKind::kInput, {"Git LFS pointer"},

@@ -2,6 +2,7 @@
 #include "io/gdal_files.hpp"
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <ogr_spatialref.h>
 
 #include <memory>
@@ -41,6 +42,9 @@ void write_tiff(const std::filesystem::path& path, const TiffRecipe& recipe) {
     colours.SetColorEntry(0, &red);
     dataset->GetRasterBand(1)->SetColorTable(&colours);
   }
+  for (const auto& [domain, name, value] : recipe.metadata) {
+    dataset->SetMetadataItem(name.c_str(), value.c_str(), domain.c_str());
+  }
   for (std::size_t i = 0; i < recipe.meaning.size(); ++i) {
     dataset->GetRasterBand(static_cast<int>(i) + 1)->SetColorInterpretation(recipe.meaning[i]);
   }
@@ -49,6 +53,18 @@ void write_tiff(const std::filesystem::path& path, const TiffRecipe& recipe) {
     if (recipe.nodata != nullptr) band.SetNoDataValue(CPLAtof(recipe.nodata));
     write_band(band, recipe.values[i], recipe.width, recipe.height);
   }
+}
+
+void write_sparse_tiff(const std::filesystem::path& path, int width, int height,
+                       const std::vector<std::array<std::string, 2>>& options, bool sparse) {
+  GDALAllRegister();
+  CPLStringList list;
+  if (sparse) list.SetNameValue("SPARSE_OK", "TRUE");
+  for (const auto& [name, value] : options) list.SetNameValue(name.c_str(), value.c_str());
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const Dataset dataset(driver->Create(path.c_str(), width, height, 1, GDT_Byte, list.List()));
+  std::array<double, 6> transform = TiffRecipe().transform;
+  dataset->SetGeoTransform(transform.data());
 }
 
 TiffFacts tiff_facts(const std::filesystem::path& path) {

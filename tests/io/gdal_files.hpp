@@ -24,9 +24,16 @@ struct TiffRecipe {
   const char* nodata = nullptr;
   std::vector<GDALColorInterp> meaning{};  ///< of the bands
   bool palette = false;
+  /// Domain, name and value.
+  std::vector<std::array<std::string, 3>> metadata{};
 };
 
 void write_tiff(const std::filesystem::path& path, const TiffRecipe& recipe);
+
+/// One band of 8 bits with the transform of a TiffRecipe, by the options of GDAL's driver. Without
+/// pixels, which are 0 then, or with zeros.
+void write_sparse_tiff(const std::filesystem::path& path, int width, int height,
+                       const std::vector<std::array<std::string, 2>>& options, bool sparse = true);
 
 struct TiffFacts {
   double west = 0.0;

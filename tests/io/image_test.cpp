@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "io/random_raster.hpp"
+#include "io/tiff_bytes.hpp"
+#include "nadir/io/image_file_check.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -146,6 +148,36 @@ TEST(Image, RefusesASizeThatTheFileCannotHold) {
   test::write_text(folder / "image.jpg", jpeg);
   expect_error(ErrorKind::kInput, {"image.jpg", "24577 x 24577 pixels", "cannot hold"},
                [&] { read_image(folder / "image.jpg"); });
+}
+
+/// A decoder of OpenCV is chosen by bytes anywhere in the file ("DICM" at 128) where none knows the
+/// first ones. So these must be those of a format whose header is checked, all of them.
+TEST(Image, OtherSignaturesReachNoDecoder) {
+  const std::string tiff =
+      test::tiff_bytes({{test::tiff_tags::kWidth, 3, 1, 8}, {test::tiff_tags::kHeight, 3, 1, 8}});
+  EXPECT_NO_THROW(check_image_size("a.tif", tiff));
+  EXPECT_NO_THROW(check_image_size("a.pgm", "P5 8 8 255 "));
+  for (std::string bytes :
+       {std::string("II\0\0", 4) + tiff.substr(4), std::string("MM\x2a\0", 4) + tiff.substr(4),
+        std::string("P58 8 255 "), std::string("P7\nWIDTH 8\nHEIGHT 8\n"),
+        std::string("BM\x40\0\0\0", 6), std::string("RIFF\x40\0\0\0WEBP", 12)}) {
+    bytes.resize(200);
+    bytes.replace(128, 4, "DICM");
+    expect_error(ErrorKind::kInput, {"a.tif", "not an image", "PNG, JPEG, TIFF"},
+                 [&] { check_image_size("a.tif", bytes); });
+  }
+}
+
+/// OpenCV makes room for a block of a TIFF before it reads one.
+TEST(Image, ABlockOfATiffIsNoLargerThanTheFileCanHold) {
+  namespace tag = test::tiff_tags;
+  const std::string bytes = test::tiff_bytes({{tag::kWidth, 3, 1, 8},
+                                              {tag::kHeight, 3, 1, 8},
+                                              {tag::kBits, 3, 1, 8},
+                                              {tag::kTileWidth, 4, 1, 32768},
+                                              {tag::kTileHeight, 4, 1, 32768}});
+  expect_error(ErrorKind::kInput, {"a.tif", "blocks of 32768 x 32768 pixels"},
+               [&] { check_image_size("a.tif", bytes); });
 }
 
 TEST(Image, ReadsProgressiveJpeg) {

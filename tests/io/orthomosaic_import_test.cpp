@@ -118,6 +118,18 @@ TEST_F(OrthomosaicImport, BeyondUtmIsRefused) {
                [&] { import_orthomosaic(file_); });
 }
 
+TEST_F(OrthomosaicImport, AResultThatIsTooLargeIsRefused) {
+  TiffRecipe recipe;  // a thin strip that lies askew
+  recipe.width = 4;
+  recipe.height = 3000;
+  recipe.transform = {1000.0, 0.35, 0.35, 2000.0, 0.35, -0.35};
+  test::write_tiff(file_, recipe);
+  ImportOptions options;
+  options.most_megapixels = 4.0;
+  expect_error(ErrorKind::kInput, {"map.tif", "5 million pixels", "--gsd"},
+               [&] { import_orthomosaic(file_, options); });
+}
+
 TEST_F(OrthomosaicImport, SixteenBitsAreStretchedByTheStatedRule) {
   TiffRecipe recipe;
   recipe.width = 1000;

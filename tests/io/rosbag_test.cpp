@@ -12,7 +12,7 @@
 #include "io/bag_drive.hpp"
 #include "io/small_drive.hpp"
 #include "nadir/io/bag_topics.hpp"
-#include "nadir/io/detail/bag_check.hpp"
+#include "nadir/io/detail/message_layout.hpp"
 #include "nadir/io/drive_reader.hpp"
 #include "nadir/io/mounting_file.hpp"
 #include "nadir/io/pose_file.hpp"
@@ -154,15 +154,17 @@ TEST_F(Rosbag, FramesKeepTheirNumbers) {
 }
 
 TEST_F(Rosbag, ChunksMayBeCompressed) {
-  {
-    BagWriter bag(file(), true);
-    write_infos(bag);
-    write_stereo_images(bag);
-    write_odometry(bag);
-    bag.close();
+  for (const auto compression : {test::BagCompression::kLz4, test::BagCompression::kBz2}) {
+    {
+      BagWriter bag(file(), compression);
+      write_infos(bag);
+      write_stereo_images(bag);
+      write_odometry(bag);
+      bag.close();
+    }
+    const Drive drive = open_drive(file());
+    EXPECT_EQ(drive.read_stereo(drive.frames[3]).right, test::small_stereo_frame(3, 1).right);
   }
-  const Drive drive = open_drive(file());
-  EXPECT_EQ(drive.read_stereo(drive.frames[3]).right, test::small_stereo_frame(3, 1).right);
 }
 
 TEST_F(Rosbag, LidarWithOneCamera) {
@@ -549,6 +551,59 @@ TEST_F(Rosbag, LengthsAndOffsetsThatLie) {
   expect_damaged(entry + 8, large, "points beyond its chunk");
   expect_damaged(whole.find("count=", index) + 6, large, "of another length than it says");
   expect_damaged(whole.find("chunk_pos=") + 10, large, "there is no chunk");
+}
+
+/// The topics that the index lists are lists of fields too.
+TEST_F(Rosbag, TopicsThatLie) {
+  write_whole();
+  const std::string whole = test::read_text(file());
+  const std::size_t index = whole.find("index_pos=") + 10;
+  std::uint64_t listed = 0;
+  std::memcpy(&listed, whole.data() + index, sizeof(listed));
+  const auto expect_damaged = [&](std::size_t position, const std::string& bytes,
+                                  std::initializer_list<std::string> problem) {
+    ASSERT_NE(position, std::string::npos);
+    std::string spoiled = whole;
+    spoiled.replace(position, bytes.size(), bytes);
+    test::write_text(file(), spoiled);
+    expect_error(ErrorKind::kInput, problem, [&] { list_bag(file()); });
+  };
+  const std::size_t md5 = whole.find("md5sum=", listed);
+  expect_damaged(md5 - 4, std::string("\0\0\x0a\0", 4), {"drive.bag", "no list of fields"});
+  expect_damaged(md5, "md6sum=", {"drive.bag", "no 'md5sum'"});
+  // The same field twice: readers differ in which they take.
+  expect_damaged(whole.find("conn=", listed), "op==", {"drive.bag", "damaged at byte"});
+  expect_damaged(whole.find("conn=", whole.find("op=\x04")) + 5, std::string(4, '\x55'),
+                 {"drive.bag", "topic that is not listed"});
+}
+
+/// What a compressed chunk holds is known only once it is unpacked.
+TEST_F(Rosbag, CompressedChunksThatLie) {
+  write_whole();
+  const std::string whole = test::read_text(file());
+  const std::string chunk = test::chunk_of(whole);
+  const auto size = static_cast<std::uint32_t>(chunk.size());
+  std::string spoiled = chunk;
+  // The lengths of every message's header.
+  for (std::size_t at = spoiled.find("op=\x02"); at != std::string::npos;
+       at = spoiled.find("op=\x02", at + 1)) {
+    const std::size_t begin = spoiled.rfind("conn=", at) - 8;
+    spoiled.replace(begin, 4, std::string("\xff\xff\xff\x0f", 4));
+  }
+  ASSERT_NE(spoiled, chunk);
+  test::write_text(file(), test::with_chunk(whole, "bz2", test::packed_bz2(chunk), size));
+  EXPECT_EQ(open_drive(file()).frames.size(), 4U);
+  test::write_text(file(), test::with_chunk(whole, "bz2", test::packed_bz2(spoiled), size));
+  expect_refused({"drive.bag", "damaged at byte", "in the chunk there"});
+  test::write_text(file(), test::with_chunk(whole, "bz2", test::packed_bz2(chunk), size + 7));
+  expect_refused({"drive.bag", "damaged at byte", "cannot be unpacked"});
+  test::write_text(file(), test::with_chunk(whole, "bz2", "BZh9 is not so", size));
+  expect_refused({"drive.bag", "damaged at byte", "cannot be unpacked"});
+  test::write_text(file(),
+                   test::with_chunk(whole, "lz4", std::string("\x04\x22\x4d\x18", 4), size));
+  expect_refused({"drive.bag", "damaged at byte", "cannot be unpacked"});
+  test::write_text(file(), test::with_chunk(whole, "rar", chunk, size));
+  expect_refused({"drive.bag", "'rar'"});
 }
 
 TEST(RosbagLayout, AListIsNoLongerThanItsMessage) {

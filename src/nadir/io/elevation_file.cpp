@@ -11,6 +11,7 @@
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/detail/geotiff.hpp"
+#include "nadir/io/detail/raster_file.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/shell.hpp"
 
@@ -22,12 +23,7 @@ constexpr float kNodata = -9999.0F;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 GdalDataset open(const std::filesystem::path& path, const GdalErrors& errors) {
-  if (!path.string().starts_with("/vsi")) check_input_file(path);
-  GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset) {
-    throw input_error(path, "is not a raster that GDAL can open (" + errors.first_failure() + ")",
-                      "give a GeoTIFF of heights");
-  }
+  GdalDataset dataset = open_raster(path, errors);
   check_raster_size(*dataset, path);
   if (dataset->GetRasterCount() != 1) {
     throw input_error(
@@ -61,15 +57,18 @@ Raster<float> read_heights(GDALRasterBand& band, const std::filesystem::path& pa
 }  // namespace
 
 bool looks_like_heights(const std::filesystem::path& path) {
-  gdal_driver("GTiff");
   const GdalErrors errors;
-  const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset || dataset->GetRasterCount() != 1) return false;
-  return GDALDataTypeIsFloating(dataset->GetRasterBand(1)->GetRasterDataType()) != 0;
+  try {
+    const GdalDataset dataset = open_raster(path, errors);
+    if (dataset->GetRasterCount() != 1) return false;
+    return GDALDataTypeIsFloating(dataset->GetRasterBand(1)->GetRasterDataType()) != 0 ||
+           lower_extension(path) == ".asc";
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 ElevationMap read_elevation_map(const std::filesystem::path& path) {
-  gdal_driver("GTiff");
   const GdalErrors errors;
   const GdalDataset dataset = open(path, errors);
   const auto geo = read_geo_reference(*dataset, path);

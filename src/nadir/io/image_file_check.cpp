@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "nadir/io/detail/tiff_check.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kJpegSignature = "\xff\xd8\xff";
+constexpr std::string_view kSpace = " \t\r\n";
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t position) {
   return static_cast<std::uint8_t>(bytes[position]);
@@ -25,6 +27,14 @@ std::size_t big_endian(std::string_view bytes, std::size_t position, int count) 
     value = value << 8 | byte_at(bytes, position + static_cast<std::size_t>(i));
   }
   return value;
+}
+
+BytesAt bytes_of(std::string_view bytes) {
+  return [bytes](std::uint64_t position, std::size_t count) {
+    return position < bytes.size()
+               ? std::string(bytes.substr(static_cast<std::size_t>(position), count))
+               : std::string();
+  };
 }
 
 /// Walks the chunks: length, type, data, checksum.
@@ -103,39 +113,11 @@ std::optional<DeclaredSize> jpeg_size(std::string_view bytes) {
   return std::nullopt;
 }
 
-/// An unsigned number of `count` bytes in the order of a TIFF; 0 beyond the end.
-std::uint64_t tiff_number(std::string_view bytes, std::uint64_t position, int count) {
-  const auto size = static_cast<std::uint64_t>(count);
-  if (bytes.size() < size || position > bytes.size() - size) return 0;
-  const bool little = bytes.starts_with("II");
-  std::uint64_t value = 0;
-  for (std::uint64_t i = 0; i < size; ++i) {
-    value = value << 8U | byte_at(bytes, position + (little ? size - 1 - i : i));
-  }
-  return value;
-}
-
-/// Tags 256 and 257 of the first directory; 16 and 32 bits wide, in a BigTIFF 64. Fax compression
-/// codes a white line of a page in some bits.
+/// Of the first directory. Fax compression codes a white line of a page in some bits.
 std::optional<DeclaredSize> tiff_size(std::string_view bytes) {
-  constexpr std::uint64_t kBig = 43;
-  const bool big = tiff_number(bytes, 2, 2) == kBig;
-  const std::uint64_t directory = big ? tiff_number(bytes, 8, 8) : tiff_number(bytes, 4, 4);
-  const std::uint64_t entries = tiff_number(bytes, directory, big ? 8 : 2);
-  const std::uint64_t entry_size = big ? 20 : 12;
-  DeclaredSize size{0, 0, 65'536};
-  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(entries, 65'535); ++i) {
-    const std::uint64_t entry = directory + (big ? 8 : 2) + i * entry_size;
-    if (entry >= bytes.size()) break;
-    const std::uint64_t tag = tiff_number(bytes, entry, 2);
-    const std::uint64_t type = tiff_number(bytes, entry + 2, 2);
-    const int width = type == 3 ? 2 : type == 16 ? 8 : 4;
-    const std::uint64_t value = tiff_number(bytes, entry + (big ? 12 : 8), width);
-    // Of a tag that is there twice, decoders differ in which they take.
-    if (tag == 256) size.width = std::max(size.width, value);
-    if (tag == 257) size.height = std::max(size.height, value);
-  }
-  return size.width > 0 && size.height > 0 ? std::optional(size) : std::nullopt;
+  const auto directory = first_tiff_directory(bytes_of(bytes));
+  if (!directory) return std::nullopt;
+  return DeclaredSize{directory->width, directory->height, 65'536};
 }
 
 /// P1 to P6: two numbers behind white space and comments. A bit a pixel is the least.
@@ -144,7 +126,7 @@ std::optional<DeclaredSize> pnm_size(std::string_view bytes) {
   std::size_t position = 2;
   for (std::uint64_t* side : {&size.width, &size.height}) {
     while (position < bytes.size()) {
-      position = std::min(bytes.find_first_not_of(" \t\r\n", position), bytes.size());
+      position = std::min(bytes.find_first_not_of(kSpace, position), bytes.size());
       if (position >= bytes.size() || bytes[position] != '#') break;
       position = std::min(bytes.find('\n', position), bytes.size());
     }
@@ -152,45 +134,68 @@ std::optional<DeclaredSize> pnm_size(std::string_view bytes) {
     const auto [end, error] = std::from_chars(begin, bytes.data() + bytes.size(), *side);
     position += static_cast<std::size_t>(end - begin);
     // Decoders differ in what else may end a number.
-    const bool ended = position < bytes.size() &&
-                       std::string_view(" \t\r\n").find(bytes[position]) != std::string_view::npos;
+    const bool ended =
+        position < bytes.size() && kSpace.find(bytes[position]) != std::string_view::npos;
     if (error != std::errc{} || !ended) return std::nullopt;
   }
   return size;
 }
 
-std::optional<DeclaredSize> declared_size(std::string_view bytes) {
-  if (bytes.starts_with(kPngSignature)) return png_size(bytes);
-  if (bytes.starts_with(kJpegSignature)) return jpeg_size(bytes);
-  if (bytes.starts_with("II") || bytes.starts_with("MM")) return tiff_size(bytes);
-  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
-    return pnm_size(bytes);
+std::optional<DeclaredSize> declared_size(ImageFormat format, std::string_view bytes) {
+  switch (format) {
+    case ImageFormat::kPng:
+      return png_size(bytes);
+    case ImageFormat::kJpeg:
+      return jpeg_size(bytes);
+    case ImageFormat::kTiff:
+      return tiff_size(bytes);
+    case ImageFormat::kPnm:
+      return pnm_size(bytes);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-void check_image_size(const std::filesystem::path& path, std::string_view bytes) {
+std::optional<ImageFormat> image_format(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with(kPngSignature)) return ImageFormat::kPng;
+  if (bytes.starts_with(kJpegSignature)) return ImageFormat::kJpeg;
+  for (const auto signature : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) {
+    if (bytes.starts_with(signature)) return ImageFormat::kTiff;
+  }
+  const bool pnm = bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' &&
+                   kSpace.find(bytes[2]) != std::string_view::npos;
+  return pnm ? std::optional(ImageFormat::kPnm) : std::nullopt;
+}
+
+void check_image_size(const std::filesystem::path& path, std::string_view head,
+                      std::uint64_t file_size, std::uint64_t most_pixels) {
   constexpr std::uint64_t kSmall = std::uint64_t{1} << 20U;  // pixels: not worth an argument
-  const auto size = declared_size(bytes);
+  const auto format = image_format(head);
+  const auto size = format ? declared_size(*format, head) : std::nullopt;
   if (!size || size->width == 0 || size->height == 0) {
     throw input_error(path, "is not an image that can be decoded",
-                      "give a PNG, JPEG or TIFF file, or copy it again if it is damaged");
+                      "give a PNG, JPEG, TIFF or PNM file, or copy it again if it is damaged");
   }
   const std::string sides =
       std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels";
-  if (size->width > kMostImagePixels / size->height) {
+  if (size->width > most_pixels / size->height) {
     throw input_error(path, "its header declares " + sides + ", which is too large",
                       "cut it into parts, or copy it again if it is damaged");
   }
   const std::uint64_t pixels = size->width * size->height;
-  if (pixels > kSmall && pixels / size->pixels_of_byte > bytes.size()) {
+  if (pixels > kSmall && pixels / size->pixels_of_byte > file_size) {
     throw input_error(path,
-                      "its header declares " + sides + ", which " + std::to_string(bytes.size()) +
+                      "its header declares " + sides + ", which " + std::to_string(file_size) +
                           " bytes cannot hold",
                       "copy or download it again");
   }
+}
+
+void check_image_size(const std::filesystem::path& path, std::string_view bytes) {
+  check_image_size(path, bytes, bytes.size(), kMostImagePixels);
+  if (image_format(bytes) == ImageFormat::kTiff) check_tiff(path, bytes_of(bytes), bytes.size());
 }
 
 void check_image_is_whole(const std::filesystem::path& path, std::string_view bytes) {

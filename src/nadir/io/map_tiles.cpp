@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "nadir/io/detail/gdal_geo_reference.hpp"
+#include "nadir/io/detail/raster_file.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir {
@@ -104,14 +105,9 @@ struct MapTiles::Source {
 };
 
 MapTiles::MapTiles(const std::filesystem::path& path) : source_(std::make_unique<Source>()) {
-  if (!path.string().starts_with("/vsi")) check_input_file(path);
-  gdal_driver("GTiff");
   const GdalErrors errors;
   source_->path = path;
-  source_->dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!source_->dataset || source_->dataset->GetRasterCount() == 0) {
-    throw input_error(path, "is not an image that GDAL can open", "give a GeoTIFF");
-  }
+  source_->dataset = open_raster(path, errors);
   check_block_size(*source_->dataset, path);
   const auto geo = read_geo_reference(*source_->dataset, path);
   if (!geo) throw input_error(path, "it has no geo-reference", "put a world file beside it");

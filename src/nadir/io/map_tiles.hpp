@@ -26,7 +26,8 @@ class MapTiles {
  public:
   static constexpr int kTileSize = 512;
 
-  /// Opens any raster of 8-bit grey or RGB with a geo-reference. Throws Error (input).
+  /// Opens a map of 8-bit grey or RGB with a geo-reference, of the formats of read_orthomosaic().
+  /// Throws Error (input).
   explicit MapTiles(const std::filesystem::path& path);
   ~MapTiles();
   MapTiles(const MapTiles&) = delete;

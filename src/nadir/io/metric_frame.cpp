@@ -88,15 +88,15 @@ MetricFrame MetricFrame::around(const std::vector<GeodeticPosition>& positions) 
   GeodeticPosition middle;
   middle.latitude_deg = median(std::move(latitudes));
   middle.longitude_deg = median_longitude(std::move(longitudes));
-  if (middle.latitude_deg > 84.0 || middle.latitude_deg < -80.0) {
+  const auto epsg = utm_epsg(middle.latitude_deg, middle.longitude_deg);
+  if (!epsg || middle.latitude_deg > 84.0 || middle.latitude_deg < -80.0) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("the photos lie at latitude {:.3f}, where UTM has no zone",
                             middle.latitude_deg),
                 {}, "remove the positions and give --metres-per-pixel for a map in local metres");
   }
-  const int epsg = utm_epsg(middle.latitude_deg, middle.longitude_deg);
-  return {epsg, fmt::format("EPSG:{} (UTM zone {} {})", epsg, epsg % 100,
-                            middle.latitude_deg < 0.0 ? "south" : "north")};
+  return {*epsg, fmt::format("EPSG:{} (UTM zone {} {})", *epsg, *epsg % 100,
+                             middle.latitude_deg < 0.0 ? "south" : "north")};
 }
 
 Point3<frames::Map> MetricFrame::to_map(const GeodeticPosition& position) const {

@@ -12,6 +12,7 @@
 #include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/detail/gdal_warp.hpp"
 #include "nadir/io/detail/orthomosaic_bands.hpp"
+#include "nadir/io/detail/raster_file.hpp"
 #include "nadir/io/detail/reference_system.hpp"
 #include "nadir/io/input_file.hpp"
 
@@ -195,10 +196,11 @@ GeoReference plain_reference(const ImportOptions& options, const Path& path, int
 }
 
 /// Plain images are reduced by area here: GDAL would not warp what has no geo-reference.
-void resample_plain(double resolution, const Path& path, ImportedOrthomosaic& result) {
+void resample_plain(double resolution, const ImportOptions& options, const Path& path,
+                    ImportedOrthomosaic& result) {
   Orthomosaic& map = result.map;
   const double factor = map.geo.resolution / resolution;
-  check_result_size(map.width() * factor, map.height() * factor, path);
+  check_result_size(map.width() * factor, map.height() * factor, options, path);
   const int width = std::max(1, static_cast<int>(std::lround(map.width() * factor)));
   const int height = std::max(1, static_cast<int>(std::lround(map.height() * factor)));
   const int method = factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC;
@@ -229,19 +231,17 @@ void check_valid(const ImportedOrthomosaic& result, const Path& path) {
 
 ImportedOrthomosaic import_orthomosaic(const Path& path, const ImportOptions& options) {
   check_orthomosaic_file(path);
-  gdal_driver("GTiff");
   const GdalErrors errors;
   const GdalSetting strict("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
   ImportedOrthomosaic result;
-  GdalDataset dataset = open_image(path, errors);
+  GdalDataset dataset = open_raster(path, errors);
   check_raster_size(*dataset, path);
   if (dataset->GetRasterBand(1)->GetColorTable() != nullptr) {
     dataset = expanded_palette(*dataset, path);
     result.notes.emplace_back("its palette became red, green and blue");
   }
   colour_bands(*dataset, path);  // CMYK and the like end here
-  if (GdalDataset warped =
-          warped_to_metric(*dataset, path, options.crs, options.resolution_m, result.notes)) {
+  if (GdalDataset warped = warped_to_metric(*dataset, path, options, result.notes)) {
     dataset = std::move(warped);
   }
   read_pixels(*dataset, path, errors, result);
@@ -249,7 +249,7 @@ ImportedOrthomosaic import_orthomosaic(const Path& path, const ImportOptions& op
     result.map.geo = *geo;
   } else {
     result.map.geo = plain_reference(options, path, dataset->GetRasterYSize());
-    if (options.resolution_m) resample_plain(*options.resolution_m, path, result);
+    if (options.resolution_m) resample_plain(*options.resolution_m, options, path, result);
   }
   if (!options.crs.empty() && result.map.geo.crs.empty()) {
     set_crs(options.crs, path, result.map.geo);

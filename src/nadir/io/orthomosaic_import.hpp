@@ -23,6 +23,9 @@ struct ImportOptions {
   std::optional<double> distance_m;
   std::string crs;  ///< where the file names none: "EPSG:32651" and the like
   Collar collar = Collar::kNone;
+  /// Of the result: a thin image that lies askew, or a fine resolution, may give far more pixels
+  /// than the file has.
+  double most_megapixels = 1000.0;
 };
 
 struct ImportedOrthomosaic {
@@ -39,8 +42,8 @@ struct ImportedOrthomosaic {
 ///   averages by area to a coarser `resolution_m`;
 ///   takes a `collar` (within 5 grey levels of white or black, joined to the border) for a hole.
 /// Throws Error (input) for what cannot be read, CMYK, other numbers of bands, places beyond UTM,
-/// a file without geo-reference where no option gives one, and one without any valid pixel; Error
-/// (usage) for options that contradict each other.
+/// a file without geo-reference where no option gives one, one without any valid pixel, and a
+/// result that would be too large; Error (usage) for options that contradict each other.
 ImportedOrthomosaic import_orthomosaic(const std::filesystem::path& path,
                                        const ImportOptions& options = {});
 

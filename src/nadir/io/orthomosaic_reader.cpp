@@ -9,6 +9,7 @@
 
 #include "nadir/io/detail/gdal_geo_reference.hpp"
 #include "nadir/io/detail/orthomosaic_bands.hpp"
+#include "nadir/io/detail/raster_file.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/orthomosaic_file.hpp"
@@ -61,23 +62,11 @@ std::string translate_line(const std::filesystem::path& path, const std::string&
 
 /// Compressed images are decoded without a word where they end too early.
 void check_orthomosaic_file(const std::filesystem::path& path) {
-  if (path.string().starts_with("/vsi")) return;  // GDAL's virtual file systems
-  check_input_file(path);
+  if (!is_file(path)) return;  // opening it says so
   const std::string extension = lower_extension(path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") {
     check_image_is_whole(path, read_file(path));
   }
-}
-
-GdalDataset open_image(const std::filesystem::path& path, const GdalErrors& errors) {
-  GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset || dataset->GetRasterCount() == 0) {
-    throw input_error(path,
-                      "is not an image that GDAL can open" +
-                          (errors.failed() ? " (" + errors.first_failure() + ")" : ""),
-                      "give a GeoTIFF, COG, VRT, PNG or JPEG file");
-  }
-  return dataset;
 }
 
 std::vector<int> colour_bands(GDALDataset& dataset, const std::filesystem::path& path) {
@@ -139,10 +128,9 @@ Raster<std::uint8_t> read_validity(GDALDataset& dataset, std::span<const int> ba
 Orthomosaic read_orthomosaic(const std::filesystem::path& path,
                              std::optional<PlainImageGeo> plain) {
   check_orthomosaic_file(path);
-  gdal_driver("GTiff");
   const GdalErrors errors;
   const GdalSetting strict("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");
-  const GdalDataset dataset = open_image(path, errors);
+  const GdalDataset dataset = open_raster(path, errors);
   check_raster_size(*dataset, path);
   check_pixel_type(*dataset, path);
   const std::vector<int> bands = colour_bands(*dataset, path);

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "nadir/io/detail/exif.hpp"
-#include "nadir/io/detail/gdal_support.hpp"
+#include "nadir/io/detail/raster_file.hpp"
 #include "nadir/io/input_file.hpp"
 #include "nadir/io/photo_file.hpp"
 
@@ -229,18 +229,9 @@ void add_camera(PhotoMetadata& metadata, const ExifTags& exif) {
 }  // namespace
 
 PhotoMetadata read_photo_metadata(const std::filesystem::path& path) {
-  check_input_file(path);
-  gdal_driver("JPEG");
   const GdalErrors errors;
   const GdalSetting no_side_files("GDAL_PAM_ENABLED", "NO");
-  // Of GDAL's other drivers some make room for what a header declares when they open a file.
-  constexpr std::array<const char*, 4> kDrivers{"JPEG", "PNG", "GTiff", nullptr};
-  const GdalDataset dataset(
-      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers.data()));
-  if (!dataset || dataset->GetRasterCount() == 0) {
-    throw input_error(path, "is not an image that can be decoded",
-                      "give JPEG, PNG or TIFF photos, or copy it again if it is damaged");
-  }
+  const GdalDataset dataset = open_raster(path, errors, RasterUse::kPhoto);
   PhotoMetadata metadata;
   metadata.name = path.filename().string();
   metadata.width = dataset->GetRasterXSize();

@@ -38,11 +38,12 @@ std::string utm_grid_at(const OGRSpatialReference& crs, double x, double y) {
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const std::unique_ptr<OGRCoordinateTransformation> to_wgs84(
       OGRCreateCoordinateTransformation(&crs, &wgs84));
-  if (!to_wgs84 || to_wgs84->Transform(1, &x, &y) == 0 || std::abs(x) > 180.0 ||
-      std::abs(y) > 84.0) {
+  const bool placed = to_wgs84 && to_wgs84->Transform(1, &x, &y) != 0;
+  const auto epsg = placed ? utm_epsg(y, x) : std::nullopt;
+  if (!epsg || std::abs(x) > 180.0 || std::abs(y) > 84.0) {
     return "EPSG:326NN (NN = UTM zone)";
   }
-  return fmt::format("EPSG:{}", utm_epsg(y, x));
+  return fmt::format("EPSG:{}", *epsg);
 }
 
 void check_crs(const OGRSpatialReference& crs, const std::filesystem::path& path, double x,
@@ -61,11 +62,14 @@ void check_crs(const OGRSpatialReference& crs, const std::filesystem::path& path
   throw input_error(path, problem, warp_line(path, "-t_srs " + utm_grid_at(crs, x, y)));
 }
 
+void check_is_finite(const GeoTransform& t, const std::filesystem::path& path) {
+  if (std::ranges::all_of(t, [](double value) { return std::abs(value) <= kLargestNumber; }))
+    return;
+  throw input_error(path, "the numbers of its grid are not finite", "correct its world file");
+}
+
 void check_transform(const GeoTransform& t, GDALDataset& dataset,
                      const std::filesystem::path& path) {
-  if (!std::ranges::all_of(t, [](double value) { return std::abs(value) <= kLargestNumber; })) {
-    throw input_error(path, "the numbers of its grid are not finite", "correct its world file");
-  }
   const double size = std::max(dataset.GetRasterXSize(), dataset.GetRasterYSize());
   // A quarter of a pixel over the whole image is rounding in the writer, not rotation.
   const double allowed = 0.25 * std::abs(t[1]) / size;
@@ -104,6 +108,7 @@ std::optional<GeoReference> read_geo_reference(GDALDataset& dataset,
     if (dataset.GetGCPCount() == 0) return std::nullopt;
     throw input_error(path, "it carries ground control points, but no grid", warp_line(path, ""));
   }
+  check_is_finite(t, path);
   GeoReference geo{t[0], t[3], t[1], {}};
   const auto crs = read_crs(dataset, path);
   if (crs) {

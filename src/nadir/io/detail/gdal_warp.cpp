@@ -20,8 +20,6 @@ namespace {
 
 using GeoTransform = std::array<double, 6>;  ///< x = t0 + column t1 + row t2, y = t3 + ...
 
-constexpr double kLargestMegapixels = 1000.0;
-
 struct WarpPlan {
   std::string target;            ///< "EPSG:326NN"; empty = the reference system stays
   std::vector<std::string> why;  ///< empty = nothing to be done
@@ -44,12 +42,13 @@ std::string utm_zone(const OGRSpatialReference& crs, const GeoTransform& t, GDAL
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const std::unique_ptr<OGRCoordinateTransformation> transformation(
       OGRCreateCoordinateTransformation(&from, &wgs84));
-  if (!transformation || transformation->Transform(1, &x, &y) == 0 || !(std::abs(x) <= 180.0) ||
-      y > 84.0 || y < -80.0) {
+  const bool placed = transformation && transformation->Transform(1, &x, &y) != 0;
+  const auto epsg = placed ? utm_epsg(y, x) : std::nullopt;
+  if (!epsg || std::abs(x) > 180.0 || y > 84.0 || y < -80.0) {
     throw input_error(path, "its centre lies where UTM has no zone",
                       "check its reference system, or warp it with gdalwarp to a metric one");
   }
-  return fmt::format("EPSG:{}", utm_epsg(y, x));
+  return fmt::format("EPSG:{}", *epsg);
 }
 
 void plan_crs(const OGRSpatialReference& crs, const GeoTransform& t, GDALDataset& dataset,
@@ -139,16 +138,17 @@ void note_resolution(double before, double after, std::vector<std::string>& note
 
 }  // namespace
 
-void check_result_size(double width, double height, const std::filesystem::path& path) {
+void check_result_size(double width, double height, const ImportOptions& options,
+                       const std::filesystem::path& path) {
   const double megapixels = width * height / 1e6;
-  if (megapixels <= kLargestMegapixels) return;  // a NaN is not
+  if (megapixels <= options.most_megapixels) return;  // a NaN is not
   throw input_error(path, fmt::format("the map would have {:.0f} million pixels", megapixels),
                     "give a coarser --gsd, or check its reference system with gdalinfo");
 }
 
 GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& path,
-                             const std::string& crs, std::optional<double> resolution_m,
-                             std::vector<std::string>& notes) {
+                             const ImportOptions& options, std::vector<std::string>& notes) {
+  const std::string& crs = options.crs;
   GeoTransform t{};
   if (dataset.GetGeoTransform(t.data()) != CE_None) return nullptr;
   OGRSpatialReference reference;
@@ -169,9 +169,9 @@ GdalDataset warped_to_metric(GDALDataset& dataset, const std::filesystem::path& 
   if (!plan.why.empty()) {
     before = suggested_grid(dataset, plan.target, path, width, height)[1];
   }
-  const double after = resolution_m.value_or(before);
+  const double after = options.resolution_m.value_or(before);
   if (plan.why.empty() && std::abs(after - before) < 1e-9 * before) return nullptr;
-  check_result_size(width * (before / after), height * (before / after), path);
+  check_result_size(width * (before / after), height * (before / after), options, path);
   constexpr double kAverageFrom = 1.2;  // coarser than this, interpolation would alias
   GdalDataset result = warp(dataset, path, crs, plan.target, after,
                             after > kAverageFrom * before ? "average" : "cubic");

@@ -13,11 +13,8 @@
 // What reading and importing an orthomosaic share.
 namespace nadir {
 
-/// Throws Error (input) for a file that is missing, or a PNG or JPEG that is cut off.
+/// Throws Error (input) for a PNG or JPEG that is cut off.
 void check_orthomosaic_file(const std::filesystem::path& path);
-
-/// Throws Error (input) where GDAL cannot open it as an image.
-GdalDataset open_image(const std::filesystem::path& path, const GdalErrors& errors);
 
 /// "convert it: gdal_translate ARGUMENTS PATH out.tif".
 std::string translate_line(const std::filesystem::path& path, const std::string& arguments);

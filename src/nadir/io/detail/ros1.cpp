@@ -2,10 +2,8 @@
 // Compiled as C++17: ros1.hpp says why.
 #include "nadir/io/detail/ros1.hpp"
 
-#include <console_bridge/console.h>
 #include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <ros/serialization.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
@@ -16,7 +14,8 @@
 #include <map>
 #include <string_view>
 
-#include "nadir/io/detail/bag_check.hpp"
+#include "nadir/io/detail/bag_file.hpp"
+#include "nadir/io/detail/message_layout.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir::ros1 {
@@ -49,7 +48,7 @@ std::array<double, N> array_of(const Values& values) {
   return result;
 }
 
-/// rosbag's own words for other files are of little help.
+/// Other files are told apart before anything is looked for in them.
 void check_is_bag(const std::filesystem::path& file) {
   constexpr std::string_view kBegin = "#ROSBAG V";
   std::string begin(kBegin.size(), '\0');
@@ -60,23 +59,27 @@ void check_is_bag(const std::filesystem::path& file) {
   }
 }
 
-/// What rosbag throws, as the Error of a bad file.
+/// What ROS throws where it takes a message apart, as the Error of a bad file.
 template <class Action>
 auto reading(const std::filesystem::path& file, const Action& action) {
-  const char* const copy_again =
-      "copy the bag again, or run `rosbag fix` or `rosbag reindex` on it";
   try {
     return action();
-  } catch (const rosbag::BagUnindexedException&) {
-    throw input_error(file, "has no index: the recording was cut off",
-                      "run `rosbag reindex` on it");
-  } catch (const rosbag::BagFormatException& exception) {
-    throw input_error(file, std::string("is damaged: ") + exception.what(), copy_again);
   } catch (const Error&) {
     throw;
-  } catch (const std::exception& exception) {  // of rosbag, of the messages, of boost
-    throw input_error(file, std::string("cannot be read: ") + exception.what(), copy_again);
+  } catch (const std::exception& exception) {
+    throw input_error(file, std::string("cannot be read: ") + exception.what(),
+                      "copy the bag again, or run `rosbag fix` or `rosbag reindex` on it");
   }
+}
+
+/// A message out of its bytes, which are known to hold what they declare.
+template <class Message>
+Message message_of(std::string& bytes) {
+  Message message;
+  ros::serialization::IStream in(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                 static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::deserialize(in, message);
+  return message;
 }
 
 constexpr const char* kHeaderLayout = "444v1";  // number, seconds, nanoseconds, frame
@@ -109,87 +112,88 @@ const char* layout_of<tf2_msgs::TFMessage>() {
   return "(444v1v18888888)";
 }
 
-std::vector<std::uint8_t> bytes_of(const rosbag::MessageInstance& message) {
-  std::vector<std::uint8_t> bytes(message.size());
-  ros::serialization::OStream out(bytes.data(), message.size());
-  message.write(out);
-  return bytes;
-}
-
 }  // namespace
 
 struct Bag::Contents {
+  explicit Contents(const std::filesystem::path& path);
+
   std::filesystem::path file;
-  rosbag::Bag bag;
+  BagFile bag;
   std::vector<Topic> topics;
-  std::map<std::string, std::vector<rosbag::MessageInstance>> messages;
+  std::map<std::string, std::vector<BagMessage>> messages;
 
-  void open();
-  const std::vector<rosbag::MessageInstance>& of(const std::string& topic) const;
+  const std::vector<BagMessage>& of(const std::string& topic) const;
 
   template <class Message>
-  boost::shared_ptr<Message> instance(const rosbag::MessageInstance& message) const;
+  bool is_of(const BagMessage& message) const;
   template <class Message>
-  boost::shared_ptr<Message> instance(const std::string& topic, std::size_t number) const;
+  Message instance(const BagMessage& message) const;
+  template <class Message>
+  Message instance(const std::string& topic, std::size_t number) const;
 };
 
-void Bag::Contents::open() {
-  bag.open(file.string(), rosbag::bagmode::Read);
-  rosbag::View view(bag);
+Bag::Contents::Contents(const std::filesystem::path& path) : file(path), bag(path) {
   std::map<std::string, Topic> by_name;
-  for (const rosbag::MessageInstance& message : view) {
-    const std::int64_t recorded = nanoseconds(message.getTime());
-    Topic& topic = by_name[message.getTopic()];
+  for (const BagMessage& message : bag.messages()) {
+    const BagConnection& connection = bag.connection_of(message);
+    Topic& topic = by_name[connection.topic];
     if (topic.messages == 0) {
-      topic = {message.getTopic(), message.getDataType(), 0, recorded, recorded};
+      topic = {connection.topic, connection.type, 0, message.recorded_ns, message.recorded_ns};
     }
     ++topic.messages;
-    topic.last_ns = recorded;
+    topic.last_ns = message.recorded_ns;
     messages[topic.name].push_back(message);
   }
   for (const auto& entry : by_name) topics.push_back(entry.second);
 }
 
-const std::vector<rosbag::MessageInstance>& Bag::Contents::of(const std::string& topic) const {
+const std::vector<BagMessage>& Bag::Contents::of(const std::string& topic) const {
   const auto found = messages.find(topic);
   if (found == messages.end()) throw input_error(file, "has no topic " + topic);
   return found->second;
 }
 
-/// As MessageInstance::instantiate does, once the message is known to hold what it declares: the
-/// lists of a message are made as long as they say before they are read.
+/// By the checksum of its definition, as ROS does.
 template <class Message>
-boost::shared_ptr<Message> Bag::Contents::instance(const rosbag::MessageInstance& message) const {
-  if (!message.isType<Message>()) {
-    throw input_error(file, message.getTopic() + " is of type " + message.getDataType() + ", not " +
+bool Bag::Contents::is_of(const BagMessage& message) const {
+  const std::string& md5 = bag.connection_of(message).md5;
+  return md5 == "*" || md5 == ros::message_traits::MD5Sum<Message>::value();
+}
+
+/// Once the message is known to hold what it declares: its lists are made as long as they say
+/// before they are read.
+template <class Message>
+Message Bag::Contents::instance(const BagMessage& message) const {
+  const BagConnection& connection = bag.connection_of(message);
+  if (!is_of<Message>(message)) {
+    throw input_error(file, connection.topic + " is of type " + connection.type + ", not " +
                                 ros::message_traits::DataType<Message>::value());
   }
-  std::vector<std::uint8_t> bytes = bytes_of(message);
-  if (!has_layout({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                  layout_of<Message>())) {
-    throw input_error(file, "a message of " + message.getTopic() + " is damaged",
+  std::string bytes = bag.bytes_of(message);
+  if (!has_layout(bytes, layout_of<Message>())) {
+    throw input_error(file, "a message of " + connection.topic + " is damaged",
                       "leave it out with --first and --count");
   }
-  boost::shared_ptr<Message> result(new Message);
-  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::deserialize(in, *result);
-  return result;
+  return message_of<Message>(bytes);
 }
 
 template <class Message>
-boost::shared_ptr<Message> Bag::Contents::instance(const std::string& topic,
-                                                   std::size_t number) const {
+Message Bag::Contents::instance(const std::string& topic, std::size_t number) const {
   return instance<Message>(of(topic).at(number));
 }
 
-Bag::Bag(const std::filesystem::path& file) : contents_(std::make_unique<Contents>()) {
-  console_bridge::noOutputHandler();  // rosbag's own words on the terminal
+namespace {
+
+const std::filesystem::path& checked(const std::filesystem::path& file) {
   check_input_file(file);
   check_is_bag(file);
-  check_bag_structure(file);
-  contents_->file = file;
-  reading(file, [&] { contents_->open(); });
+  return file;
 }
+
+}  // namespace
+
+Bag::Bag(const std::filesystem::path& file)
+    : contents_(std::make_unique<Contents>(checked(file))) {}
 
 Bag::~Bag() = default;
 
@@ -200,15 +204,12 @@ const std::vector<Topic>& Bag::topics() const { return contents_->topics; }
 std::vector<Header> Bag::headers(const std::string& topic) const {
   return reading(file(), [&] {
     std::vector<Header> headers;
-    for (const rosbag::MessageInstance& message : contents_->of(topic)) {
-      std::vector<std::uint8_t> bytes = bytes_of(message);
-      if (!has_layout({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, kHeaderLayout)) {
+    for (const BagMessage& message : contents_->of(topic)) {
+      std::string bytes = contents_->bag.bytes_of(message);
+      if (!has_layout(bytes, kHeaderLayout)) {
         throw input_error(file(), "a message of " + topic + " begins with no header");
       }
-      ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-      std_msgs::Header header;
-      ros::serialization::deserialize(in, header);
-      headers.push_back(header_of(header));
+      headers.push_back(header_of(message_of<std_msgs::Header>(bytes)));
     }
     return headers;
   });
@@ -216,44 +217,44 @@ std::vector<Header> Bag::headers(const std::string& topic) const {
 
 Image Bag::image(const std::string& topic, std::size_t number) const {
   return reading(file(), [&]() -> Image {
-    const rosbag::MessageInstance& message = contents_->of(topic).at(number);
-    if (message.isType<sensor_msgs::CompressedImage>()) {
+    const BagMessage& message = contents_->of(topic).at(number);
+    if (contents_->is_of<sensor_msgs::CompressedImage>(message)) {
       const auto compressed = contents_->instance<sensor_msgs::CompressedImage>(message);
-      return {header_of(compressed->header), 0, 0, 0, compressed->format, true,
-              text_of(compressed->data)};
+      return {header_of(compressed.header), 0, 0, 0, compressed.format, true,
+              text_of(compressed.data)};
     }
     const auto image = contents_->instance<sensor_msgs::Image>(message);
-    return {header_of(image->header), image->width, image->height,       image->step,
-            image->encoding,          false,        text_of(image->data)};
+    return {header_of(image.header), image.width, image.height,       image.step,
+            image.encoding,          false,       text_of(image.data)};
   });
 }
 
 CameraInfo Bag::camera_info(const std::string& topic) const {
   return reading(file(), [&]() -> CameraInfo {
     const auto info = contents_->instance<sensor_msgs::CameraInfo>(topic, 0);
-    return {header_of(info->header),
-            info->width,
-            info->height,
-            info->distortion_model,
-            info->D,
-            array_of<9>(info->K),
-            array_of<9>(info->R),
-            array_of<12>(info->P)};
+    return {header_of(info.header),
+            info.width,
+            info.height,
+            info.distortion_model,
+            info.D,
+            array_of<9>(info.K),
+            array_of<9>(info.R),
+            array_of<12>(info.P)};
   });
 }
 
 PointCloud Bag::cloud(const std::string& topic, std::size_t number) const {
   return reading(file(), [&] {
     const auto message = contents_->instance<sensor_msgs::PointCloud2>(topic, number);
-    PointCloud cloud{header_of(message->header),
-                     message->width,
-                     message->height,
-                     message->point_step,
-                     message->row_step,
-                     message->is_bigendian != 0,
+    PointCloud cloud{header_of(message.header),
+                     message.width,
+                     message.height,
+                     message.point_step,
+                     message.row_step,
+                     message.is_bigendian != 0,
                      {},
-                     text_of(message->data)};
-    for (const auto& field : message->fields) {
+                     text_of(message.data)};
+    for (const auto& field : message.fields) {
       cloud.fields.push_back({field.name, field.offset, field.datatype, field.count});
     }
     return cloud;
@@ -263,10 +264,10 @@ PointCloud Bag::cloud(const std::string& topic, std::size_t number) const {
 std::vector<Transform> Bag::odometry(const std::string& topic) const {
   return reading(file(), [&] {
     std::vector<Transform> poses;
-    for (const rosbag::MessageInstance& message : contents_->of(topic)) {
+    for (const BagMessage& message : contents_->of(topic)) {
       const auto odometry = contents_->instance<nav_msgs::Odometry>(message);
-      const auto& pose = odometry->pose.pose;
-      poses.push_back({header_of(odometry->header), odometry->child_frame_id, xyz(pose.position),
+      const auto& pose = odometry.pose.pose;
+      poses.push_back({header_of(odometry.header), odometry.child_frame_id, xyz(pose.position),
                        xyzw(pose.orientation)});
     }
     return poses;
@@ -276,9 +277,9 @@ std::vector<Transform> Bag::odometry(const std::string& topic) const {
 std::vector<Transform> Bag::transforms(const std::string& topic) const {
   return reading(file(), [&] {
     std::vector<Transform> transforms;
-    for (const rosbag::MessageInstance& message : contents_->of(topic)) {
+    for (const BagMessage& message : contents_->of(topic)) {
       const auto several = contents_->instance<tf2_msgs::TFMessage>(message);
-      for (const auto& one : several->transforms) {
+      for (const auto& one : several.transforms) {
         transforms.push_back({header_of(one.header), one.child_frame_id,
                               xyz(one.transform.translation), xyzw(one.transform.rotation)});
       }

@@ -78,8 +78,9 @@ struct Transform {
 };
 
 /// An opened bag. Messages are counted from 0 in the order of their recording and read when asked
-/// for. All throw Error (input) that names the file: for a file that is missing, no bag, not
-/// indexed or cut off, and for a message of another type than asked for.
+/// for, by one thread at a time. All throw Error (input) that names the file: for a file that is
+/// missing, no bag, not indexed, cut off or encrypted, and for a message of another type than asked
+/// for.
 class Bag {
  public:
   explicit Bag(const std::filesystem::path& file);

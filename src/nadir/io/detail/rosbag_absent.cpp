@@ -7,8 +7,10 @@ namespace nadir {
 namespace {
 
 Error absent(const std::filesystem::path& file) {
-  return {ErrorKind::kUsage, "this build reads no ROS bags", file.string(),
-          "install librosbag-storage-dev and build with -DNADIR_WITH_ROSBAG=ON"};
+  return {
+      ErrorKind::kUsage, "this build reads no ROS bags", file.string(),
+      "install libroscpp-core-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libbz2-dev "
+      "liblz4-dev and build with -DNADIR_WITH_ROSBAG=ON"};
 }
 
 }  // namespace
