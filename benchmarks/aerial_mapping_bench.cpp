@@ -22,8 +22,8 @@
 #include "nadir/aerial_mapping/mapping.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 namespace {
 

@@ -24,7 +24,7 @@
 #include "nadir/aerial_mapping/mapping.hpp"
 #include "nadir/core/rolling_shutter.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/metric_frame.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
 #include "nadir/simulation/simulated_flight.hpp"
 
 namespace {

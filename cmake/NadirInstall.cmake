@@ -70,9 +70,12 @@ foreach(library IN LISTS nadir_libraries)
           DESTINATION ${nadir_config_dir})
 endforeach()
 
-# Public headers stand directly in a module's folder; what lies deeper is the module's own.
+# Public headers stand directly in a module's folder, or in a room of io or pipelines; what lies deeper is the
+# module's own, and the viewer is a part of the program.
 file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src
-     ${PROJECT_SOURCE_DIR}/src/nadir/*.hpp ${PROJECT_SOURCE_DIR}/src/nadir/*/*.hpp)
+     ${PROJECT_SOURCE_DIR}/src/nadir/*.hpp ${PROJECT_SOURCE_DIR}/src/nadir/*/*.hpp
+     ${PROJECT_SOURCE_DIR}/src/nadir/io/*/*.hpp ${PROJECT_SOURCE_DIR}/src/nadir/pipelines/*/*.hpp)
+list(FILTER headers EXCLUDE REGEX "^nadir/(io/detail|viewer)/")
 foreach(header IN LISTS headers)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${header}

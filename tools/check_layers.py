@@ -14,11 +14,28 @@ import sys
 
 STAGES = ("aerial_mapping", "ground_mapping", "map_matching", "localization", "evaluation")
 BESIDE = ("simulation", "report", "io")
-MODULES = ("core",) + STAGES + BESIDE
+ABOVE = ("runs", "pipelines", "pages", "viewer")
+MODULES = ("core",) + STAGES + BESIDE + ABOVE
 ROOT = "composition root"
 APPS = "apps"
-# The only files of src/nadir itself: the composition root and the umbrella header.
-ROOT_FILES = ("localizer.hpp", "localizer.cpp", "nadir.hpp")
+# The only files of src/nadir itself: the composition root, the umbrella header, and the version.
+ROOT_FILES = ("localizer.hpp", "localizer.cpp", "nadir.hpp", "version.hpp")
+UMBRELLA = "src/nadir/nadir.hpp"
+
+# What a module may include besides itself. core and the stages have rules, and messages, of their own.
+MAY_INCLUDE = {
+    **{module: {"core"} for module in BESIDE},
+    ROOT: {"core", *STAGES},
+    "runs": {"core", "localization", "evaluation", ROOT, "io"},
+    "pipelines": {"core", *STAGES, "simulation", "io", ROOT, "runs"},
+    "pages": {"core", *STAGES, "report", "io", ROOT, "runs", "pipelines"},
+    "viewer": {"core", *STAGES, "io", ROOT, "runs", "pipelines"},
+}
+# Folders within a module whose headers are public, as are those directly in the module's folder.
+ROOMS = {
+    "io": {"maps", "photos", "drives", "bags", "trajectories", "options", "provenance"},
+    "pipelines": {"flight", "drive", "localize", "match", "simulate"},
+}
 
 # Third parties by the beginning of the include; a header that matches none is unknown.
 THIRD_PARTIES = {
@@ -53,7 +70,11 @@ ALLOWED = {
     "io": COMPUTING | {"GDAL", "yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "POSIX", "ROS bag",
                        "bzip2", "LZ4"},
     ROOT: COMPUTING,
-    APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "cpp-httplib", "POSIX"},
+    "runs": COMPUTING | {"nlohmann-json", "fmt"},
+    "pipelines": COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "POSIX"},
+    "pages": COMPUTING | {"nlohmann-json", "fmt"},
+    "viewer": COMPUTING | {"nlohmann-json", "fmt", "cpp-httplib", "POSIX"},
+    APPS: COMPUTING | {"yaml-cpp", "nlohmann-json", "fmt", "OpenSSL", "CLI11", "POSIX"},
 }
 
 FILES = {"filesystem", "fstream"}
@@ -61,6 +82,8 @@ TERMINAL = {"iostream", "print", "syncstream"}
 THREADS = {"thread", "mutex", "shared_mutex", "condition_variable", "future", "atomic", "semaphore",
            "latch", "barrier", "stop_token", "execution"}
 CLOCK = {"chrono", "ctime"}
+SIGNALS = {"csignal"}
+NO_SIGNALS = "signals belong to apps: work is stopped through a StopToken"
 NO_FILES = "files belong to io and apps"
 NO_TERMINAL = "a library does not talk to the terminal"
 FORBIDDEN_STANDARD = {
@@ -68,7 +91,7 @@ FORBIDDEN_STANDARD = {
              (CLOCK, "core knows no clock")],
     **{module: [(FILES, NO_FILES), (TERMINAL, NO_TERMINAL)]
        for module in STAGES + ("simulation", "report", ROOT)},
-    "io": [(TERMINAL, NO_TERMINAL)],
+    **{module: [(TERMINAL, NO_TERMINAL), (SIGNALS, NO_SIGNALS)] for module in ("io",) + ABOVE},
     APPS: [],
 }
 
@@ -76,6 +99,15 @@ FORBIDDEN_STANDARD = {
 HOMES = [
     (re.compile(r"(?:\.|->)\s*dump\s*\("), "src/nadir/io/json.cpp",
      "a bare dump() throws at names that are not UTF-8: use json_text() of nadir/io/json.hpp"),
+]
+
+# Calls that belong to apps: a library gives results, and does not end the process.
+APPS_ONLY = [
+    (re.compile(r"\bstd::(?:printf|puts|putchar|cout|cerr|clog)\b|\bfmt::print\s*\(|"
+                r"\b(?:std::)?(?:fprintf|fputs|fwrite)\s*\([^;]*\bstd(?:err|out)\b"),
+     NO_TERMINAL),
+    (re.compile(r"\b(?:std::(?:exit|_Exit|quick_exit|abort)|_exit)\s*\("), "only apps end the process"),
+    (re.compile(r"\b(?:std::(?:signal|raise)|sigaction|alarm)\s*\("), NO_SIGNALS),
 ]
 
 SOURCE_SUFFIXES = {".hpp", ".cpp", ".h", ".cc", ".cu", ".cuh", ".ipp"}
@@ -98,8 +130,11 @@ def owner(path):
 
 
 def is_internal(header):
-    """Deeper than nadir/<module>/: a module's own, neither installed nor for others."""
-    return len(pathlib.PurePosixPath(header).parts) > 3
+    """Deeper than nadir/<module>/ and no room: a module's own, neither installed nor for others."""
+    parts = pathlib.PurePosixPath(header).parts
+    if len(parts) <= 3:
+        return False
+    return len(parts) > 4 or parts[2] not in ROOMS.get(parts[1], ())
 
 
 def check_own(path, layer, header, exists):
@@ -116,13 +151,18 @@ def check_own(path, layer, header, exists):
         return None
     if is_internal(header):
         return f"{header} is internal to {target}"
-    if layer in (APPS, ROOT) or target == "core":
+    if layer == APPS or target == "core" or path.as_posix() == UMBRELLA:
         return None
     if layer == "core":
         return f"core includes {target}: it knows the standard library and Eigen only"
-    if layer in STAGES and target in STAGES:
-        return f"stage {layer} includes stage {target}: they meet in core types and the localizer"
-    return f"{layer} includes {target}: it may include core only"
+    if layer in STAGES:
+        if target in STAGES:
+            return f"stage {layer} includes stage {target}: they meet in core types and the localizer"
+        return f"{layer} includes {target}: it may include core only"
+    allowed = MAY_INCLUDE[layer]
+    if target in allowed:
+        return None
+    return f"{layer} includes {target}: it may include {', '.join(sorted(allowed))} only"
 
 
 def check_foreign(layer, header):
@@ -160,8 +200,8 @@ def check_file(root, path):
             header = angled or quoted
             fault = check_own(path, layer, header, (root / "src" / header).is_file())
         elif quoted and layer == APPS:
-            near = [(root / path).parent / quoted, root / "apps" / quoted]
-            fault = None if any(file.is_file() for file in near) else f"there is no {quoted}"
+            fault = None if (root / "apps" / "nadir" / quoted).is_file() else (
+                f"there is no {quoted} in apps/nadir")
         elif quoted:
             fault = f'"{quoted}" is not written from src/: "nadir/<module>/<header>"'
         else:
@@ -175,8 +215,9 @@ def check_calls(root, path):
     """Calls outside of their home; what stands in a string or a comment is no call."""
     text = STRING_OR_COMMENT.sub(lambda m: "\n" * m.group().count("\n"),
                                  (root / path).read_text(encoding="utf-8"))
+    elsewhere = [(pattern, instead) for pattern, home, instead in HOMES if path.as_posix() != home]
     return [(path, text.count("\n", 0, found.start()) + 1, instead)
-            for pattern, home, instead in HOMES if path.as_posix() != home
+            for pattern, instead in elsewhere + (APPS_ONLY if owner(path) != APPS else [])
             for found in pattern.finditer(text)]
 
 

@@ -40,10 +40,10 @@ def main():
                        f'(kFile{number}), sizeof(kFile{number})}}, "\\"{etag}\\""}},')
     text = "\n".join([
         "// SPDX-License-Identifier: Apache-2.0", "// Made by tools/embed_web.py from web/dist.",
-        '#include "web_assets.hpp"', "", "namespace nadir::cli {", "namespace {", "",
+        '#include "nadir/viewer/web_assets.hpp"', "", "namespace nadir {", "namespace {", "",
         "\n\n".join(arrays), "", "}  // namespace", "", "std::span<const WebAsset> web_assets() {",
         "  static const WebAsset assets[] = {", *entries, "  };", "  return assets;", "}", "",
-        "}  // namespace nadir::cli", ""])
+        "}  // namespace nadir", ""])
     pathlib.Path(sys.argv[2]).write_text(text, encoding="utf-8")
 
 

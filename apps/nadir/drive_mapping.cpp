@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
 #include "nadir/core/error.hpp"
-#include "stopwatch.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
 
 namespace nadir::cli {
 namespace {

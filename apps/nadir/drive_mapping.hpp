@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drive_options.hpp"
+#include "cli/drive_options.hpp"
 #include "nadir/core/orthomosaic.hpp"
 #include "nadir/ground_mapping/mapper.hpp"
 #include "nadir/ground_mapping/self_check.hpp"

@@ -3,7 +3,7 @@
 
 #include "nadir/core/trajectory.hpp"
 #include "nadir/ground_mapping/local_map.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
 
 namespace nadir::cli {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/streams.hpp"
 #include "nadir/evaluation/consistency.hpp"
 #include "nadir/evaluation/evaluation.hpp"
 #include "nadir/evaluation/summary.hpp"
-#include "streams.hpp"
 
 namespace nadir::cli {
 

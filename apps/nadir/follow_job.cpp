@@ -9,20 +9,20 @@
 #include <set>
 #include <thread>
 
-#include "growing_map_file.hpp"
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/verdict.hpp"
 #include "nadir/aerial_mapping/incremental_mapper.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
 #include "nadir/io/image_file_check.hpp"
 #include "nadir/io/input_file.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 #include "nadir/io/shell.hpp"
-#include "photo_pixels.hpp"
-#include "stopwatch.hpp"
-#include "threads.hpp"
-#include "verdict.hpp"
+#include "nadir/pipelines/flight/growing_map_file.hpp"
+#include "nadir/pipelines/flight/photo_pixels.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
+#include "nadir/pipelines/threads.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -245,7 +245,7 @@ int end_here(const MapOptions& options, const CommonOptions& common, const Growi
 
 int follow_flight(const MapOptions& options, const Invocation& invocation) {
   const CommonOptions& common = invocation.common;
-  const ThreadLimit limit(common);
+  const ThreadLimit limit(common.threads);
   const EffectiveOptions effective(options.sources);
   require_new(options.map, common);
   require_room_for_sisters(options.map);

@@ -6,17 +6,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "interrupt.hpp"
-#include "manifest_of.hpp"
+#include "cli/context.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/tum.hpp"
-#include "output_folder.hpp"
-#include "progress.hpp"
-#include "stopwatch.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/trajectories/tum.hpp"
+#include "nadir/pipelines/manifest_of.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
+#include "nadir/runs/output_folder.hpp"
 
 namespace nadir::cli {
 
@@ -45,7 +46,7 @@ GroundJob::GroundJob(const GroundOptions& options, const Invocation& invocation,
       effective_(options.sources),
       drive_(open_drive(options.drive.input, options.drive.reading)),
       mapping_(drive_, mapping_options(options.drive, effective_, options.self_check)) {
-  require_writable(options.site, invocation.common, inputs());
+  require_writable(options.site, invocation.common.overwrite, inputs());
 }
 
 std::vector<std::filesystem::path> GroundJob::inputs() const {
@@ -114,7 +115,7 @@ void GroundJob::write_rest(SequenceWriter& writer, const DriveOverview& overview
   if (drive_.truth) writer.write_truth(read_tum(*drive_.truth));
   write_png(folder / "overview.png", overview.draw(odometry(), drive_.name + ", odometry frame"));
   write_file(folder / "frames.csv", frames_csv(mapping_.frames()));
-  Manifest manifest = manifest_of(invocation_, threads_, inputs());
+  Manifest manifest = manifest_of(context_of(invocation_), threads_, inputs());
   manifest.stages.push_back({interrupted() ? "ground (interrupted)" : "ground", seconds});
   manifest.doubts = verdict.doubts();
   write_manifest(folder, manifest, effective_.table(), effective_.origins());
@@ -123,7 +124,7 @@ void GroundJob::write_rest(SequenceWriter& writer, const DriveOverview& overview
 
 int GroundJob::run() {
   const Stopwatch stopwatch;
-  OutputFolder output(options_.site, invocation_.common, inputs());
+  OutputFolder output(options_.site, invocation_.common.overwrite, inputs());
   const DriveMapping::Options mapping =
       mapping_options(options_.drive, effective_, options_.self_check);
   SequenceWriter writer(output.staging(), drive_.name);

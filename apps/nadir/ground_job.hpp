@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "cli/verdict.hpp"
 #include "drive_mapping.hpp"
 #include "drive_overview.hpp"
-#include "effective_options.hpp"
 #include "ground_report.hpp"
-#include "nadir/io/sequence.hpp"
-#include "verdict.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/pipelines/effective_options.hpp"
 
 namespace nadir::cli {
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nadir/core/options.hpp"
-#include "text_table.hpp"
+#include "nadir/report/text_table.hpp"
 
 namespace nadir::cli {
 namespace {

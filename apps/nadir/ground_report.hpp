@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/streams.hpp"
 #include "drive_mapping.hpp"
-#include "streams.hpp"
 
 namespace nadir::cli {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "frame_range.hpp"
+#include "cli/streams.hpp"
 #include "nadir/core/error.hpp"
-#include "site.hpp"
-#include "streams.hpp"
+#include "nadir/pipelines/frame_range.hpp"
+#include "nadir/pipelines/site.hpp"
 
 namespace nadir::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "localize_job.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
 
 namespace nadir::cli {
 

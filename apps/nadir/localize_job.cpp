@@ -6,25 +6,26 @@
 
 #include <algorithm>
 
-#include "growing_map_file.hpp"
-#include "interrupt.hpp"
+#include "cli/context.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "cli/server_options.hpp"
 #include "localize_inputs.hpp"
-#include "manifest_of.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/elevation_file.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "particle_log.hpp"
-#include "progress.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/pipelines/flight/growing_map_file.hpp"
+#include "nadir/pipelines/manifest_of.hpp"
+#include "nadir/pipelines/site.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
+#include "nadir/pipelines/threads.hpp"
+#include "nadir/runs/particle_log.hpp"
 #include "run_doubts.hpp"
 #include "run_figures.hpp"
 #include "run_files.hpp"
 #include "run_report.hpp"
 #include "run_tracks.hpp"
-#include "site.hpp"
-#include "stopwatch.hpp"
-#include "threads.hpp"
-#include "viewer/server_options.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -69,7 +70,7 @@ LocalizeJob::LocalizeJob(LocalizeInput input, const LocalizeOptions& options,
     note_coverage(*input_.sequence.odometry, frames_, invocation.common.quiet);
   }
   start_of(options.start, truth_of(input_.sequence, frames_), invocation.common.seed);
-  require_writable(options.run, invocation.common, inputs());
+  require_writable(options.run, invocation.common.overwrite, inputs());
 }
 
 std::vector<std::filesystem::path> LocalizeJob::inputs() const {
@@ -200,7 +201,7 @@ void LocalizeJob::write_summary_files(const std::vector<SeedRun>& runs,
   if (options_.seeds > 1 && summary) {
     write_file(folder / "summary.json", json_text(to_json(*summary), 2) + "\n");
   }
-  Manifest manifest = manifest_of(invocation_, threads_, inputs());
+  Manifest manifest = manifest_of(context_of(invocation_), threads_, inputs());
   manifest.sources = {{"map", map_file_}};
   if (kept_any_) {
     manifest.sources.emplace_back("site", options_.run / kKeptSite);
@@ -254,7 +255,7 @@ void LocalizeJob::report(const std::vector<SeedRun>& runs, const Verdict& verdic
 int LocalizeJob::run() {
   note_device(invocation_.common);
   const Stopwatch stopwatch;
-  OutputFolder output(options_.run, invocation_.common, inputs());
+  OutputFolder output(options_.run, invocation_.common.overwrite, inputs());
   if (options_.seeds == 1 && is_growing(map_file_)) follow_map();
   const Orthomosaic map = read_orthomosaic(map_file_);
   if (options_.serve) {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "effective_options.hpp"
-#include "nadir/io/sequence.hpp"
-#include "output_folder.hpp"
+#include "cli/verdict.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/pipelines/effective_options.hpp"
+#include "nadir/runs/output_folder.hpp"
 #include "seed_run.hpp"
-#include "verdict.hpp"
 #include "viewer/live_view.hpp"
 
 namespace nadir::cli {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
 #include "nadir/core/error.hpp"
-#include "site.hpp"
-#include "stopwatch.hpp"
+#include "nadir/pipelines/site.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
 
 namespace nadir::cli {
 namespace {

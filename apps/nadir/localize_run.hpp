@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
 #include "nadir/localizer.hpp"
+#include "nadir/pipelines/localize/prior.hpp"
 #include "nadir/report/figures.hpp"
-#include "prior.hpp"
 
 namespace nadir::cli {
 

@@ -2,10 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "all_verbs.hpp"
-#include "exit_code.hpp"
-#include "interrupt.hpp"
-#include "program.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/program.hpp"
+#include "verbs/all_verbs.hpp"
 
 int main(int argc, char** argv) try {
   nadir::cli::catch_signals();

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/elevation_file.hpp"
 #include "nadir/io/file_names.hpp"
 #include "nadir/io/input_file.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/photo_poses.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/photos/photo_poses.hpp"
 #include "nadir/io/unfinished_folder.hpp"
 
 namespace nadir::cli {

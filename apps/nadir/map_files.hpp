@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "flight_input.hpp"
-#include "invocation.hpp"
+#include "cli/invocation.hpp"
+#include "cli/streams.hpp"
+#include "cli/verdict.hpp"
 #include "nadir/aerial_mapping/aerial_map.hpp"
-#include "streams.hpp"
-#include "verdict.hpp"
+#include "nadir/pipelines/flight/flight_input.hpp"
 
 namespace nadir::cli {
 

@@ -10,17 +10,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "flight_poses.hpp"
-#include "interrupt.hpp"
-#include "mapping_work.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/colmap_process.hpp"
 #include "nadir/io/file_names.hpp"
+#include "nadir/io/photos/colmap_process.hpp"
 #include "nadir/io/unfinished_folder.hpp"
-#include "progress.hpp"
-#include "stopwatch.hpp"
-#include "threads.hpp"
+#include "nadir/pipelines/flight/flight_poses.hpp"
+#include "nadir/pipelines/flight/mapping_work.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
+#include "nadir/pipelines/threads.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -198,7 +198,7 @@ int write_map(AerialMap map, const FlightInput& input, const MapOptions& options
 
 int map_flight(const MapOptions& options, const Invocation& invocation) {
   const CommonOptions& common = invocation.common;
-  const ThreadLimit limit(common);
+  const ThreadLimit limit(common.threads);
   const EffectiveOptions effective(options.sources);
   AerialMappingOptions stage = effective.aerial_mapping();
   require_new(options.map, common);

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
-#include "effective_options.hpp"
-#include "flight_input.hpp"
 #include "map_files.hpp"
 #include "nadir/aerial_mapping/mapping.hpp"
+#include "nadir/pipelines/effective_options.hpp"
+#include "nadir/pipelines/flight/flight_input.hpp"
 
 namespace nadir::cli {
 

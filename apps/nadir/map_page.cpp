@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "html_page.hpp"
-#include "libraries.hpp"
 #include "map_files.hpp"
-#include "map_pictures.hpp"
+#include "nadir/pages/html_page.hpp"
+#include "nadir/pages/map_pictures.hpp"
 #include "nadir/report/charts.hpp"
 #include "nadir/report/markup.hpp"
+#include "nadir/version.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -193,7 +193,7 @@ std::string residuals(const AerialMap& map, const Overlay& overlay) {
 }  // namespace
 
 std::string report_page(const AerialMap& map, const FlightInput& input, const std::string& title) {
-  Markup markup = html::title(title, fmt::format("nadir {}, map of a flight", program_version()));
+  Markup markup = html::title(title, fmt::format("nadir {}, map of a flight", NADIR_VERSION));
   markup += headline(map, input) + warnings(map, input) + facts(map, input);
   if (map.ortho.width() > 0) {
     const Picture colours = colour_picture(map);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "nadir/core/error.hpp"
+#include "nadir/core/options.hpp"
 #include "nadir/core/random.hpp"
-#include "site.hpp"
 
 namespace nadir::cli {
 namespace {

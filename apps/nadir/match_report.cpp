@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "text_table.hpp"
+#include "nadir/report/text_table.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/streams.hpp"
 #include "nadir/map_matching/matching.hpp"
-#include "streams.hpp"
 
 namespace nadir::cli {
 

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
 #include "nadir/io/image.hpp"
+#include "nadir/pipelines/stopwatch.hpp"
 #include "nadir/report/figures.hpp"
-#include "stopwatch.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "nadir/core/error.hpp"
 #include "nadir/core/options.hpp"
 #include "nadir/io/atomic_file.hpp"
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_job.hpp"
 
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 
 namespace nadir::cli {
 namespace {

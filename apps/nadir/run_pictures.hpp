@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "html_page.hpp"
+#include "nadir/pages/html_page.hpp"
 
 namespace nadir::cli {
 

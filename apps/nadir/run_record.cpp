@@ -6,9 +6,8 @@
 
 #include "nadir/core/error.hpp"
 #include "nadir/io/input_file.hpp"
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 #include "run_files.hpp"
-#include "site.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -196,7 +195,7 @@ RunRecord read_run(const fs::path& folder, const Json& manifest) {
     const Stamp last = record.frames.back().stamp;
     record.truth = between(truth_beside(folder, manifest), first, last);
     if (!record.truth.empty()) record.judgement = judge(record);
-    for (ViewFrame& frame : record.frames) frame.truth = truth_at(record.truth, frame.stamp);
+    for (ViewFrame& frame : record.frames) frame.truth = pose_at(record.truth, frame.stamp);
   } catch (const Error& error) {
     record.truth.clear();
     record.truth_problem = error.what();

@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
-#include "html_page.hpp"
 #include "nadir/core/angle.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/io/atomic_file.hpp"
+#include "nadir/pages/html_page.hpp"
+#include "nadir/report/text_table.hpp"
 #include "run_charts.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
 #include "run_settings.hpp"
 #include "run_words.hpp"
-#include "text_table.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "effective_options.hpp"
-#include "libraries.hpp"
+#include "cli/verb_call.hpp"
+#include "nadir/pipelines/effective_options.hpp"
+#include "nadir/report/text_table.hpp"
+#include "nadir/version.hpp"
 #include "run_record.hpp"
-#include "text_table.hpp"
-#include "verb_call.hpp"
 
 namespace nadir::cli {
 namespace {
@@ -99,8 +99,7 @@ Markup provenance_of(const Json& manifest) {
   markup += html::code(command_line(arguments));
   const std::string cores = text_at(host, "logical_processors");
   std::vector<html::Row> rows{
-      {"nadir",
-       fmt::format("{} (this page: {})", manifest.value("version", ""), program_version())},
+      {"nadir", fmt::format("{} (this page: {})", manifest.value("version", ""), NADIR_VERSION)},
       {"Started", manifest.value("started", "")},
       {"Seed, threads, device",
        fmt::format("{}, {}, {}", manifest.value("seed", 0U), manifest.value("threads", 0),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "html_page.hpp"
-#include "streams.hpp"
+#include "cli/streams.hpp"
+#include "nadir/pages/html_page.hpp"
 
 namespace nadir::cli {
 

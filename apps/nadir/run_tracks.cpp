@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_tracks.hpp"
 
-#include "nadir/io/track_file.hpp"
+#include "nadir/io/trajectories/track_file.hpp"
 
 namespace nadir::cli {
 

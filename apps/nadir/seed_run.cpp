@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nadir/pipelines/site.hpp"
 #include "run_files.hpp"
-#include "site.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "map_matching/random_maps.hpp"
 #include "nadir/core/error.hpp"
-#include "nadir/io/aeroground_map.hpp"
 #include "nadir/io/image.hpp"
+#include "nadir/io/maps/aeroground_map.hpp"
 
 namespace nadir::bench {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Endings that no command line brings about on demand.
-#include "program.hpp"
+#include "cli/program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,11 +16,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "interrupt.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/verdict.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/core/stop.hpp"
 #include "support/temporary_folder.hpp"
-#include "verdict.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "verdict.hpp"
+#include "cli/verdict.hpp"
 
 #include <gtest/gtest.h>
 

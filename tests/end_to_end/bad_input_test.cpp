@@ -8,7 +8,7 @@
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_site.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 
 namespace nadir::testing {
 namespace {

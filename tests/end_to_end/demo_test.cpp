@@ -9,9 +9,9 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "nadir/aerial_mapping/mapping.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/sequence.hpp"
-#include "nadir/io/tum.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 
 namespace nadir::testing {
 namespace {

@@ -14,8 +14,8 @@
 #include "end_to_end/small_drive.hpp"
 #include "end_to_end/small_site.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 
 namespace nadir::testing {
 namespace {

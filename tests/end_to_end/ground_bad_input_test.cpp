@@ -10,9 +10,9 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_drive.hpp"
-#include "nadir/io/drive_writer.hpp"
+#include "nadir/io/drives/drive_writer.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 
 namespace nadir::testing {
 namespace {

@@ -8,8 +8,8 @@
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_drive.hpp"
 #include "io/bag_drive.hpp"
-#include "nadir/io/drive_reader.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
+#include "nadir/io/drives/sequence.hpp"
 
 namespace nadir::testing {
 namespace {

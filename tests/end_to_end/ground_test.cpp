@@ -7,8 +7,8 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_drive.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/data.hpp"
 
 namespace nadir::testing {

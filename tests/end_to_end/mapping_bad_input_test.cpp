@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/nadir_process.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 namespace nadir::testing {
 namespace {

@@ -11,8 +11,8 @@
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/odd_names.hpp"
 #include "end_to_end/small_flight.hpp"
-#include "nadir/io/photo_file.hpp"
-#include "nadir/io/photo_poses.hpp"
+#include "nadir/io/photos/photo_file.hpp"
+#include "nadir/io/photos/photo_poses.hpp"
 
 namespace nadir::testing {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "growing_map_file.hpp"
-#include "mapping_work.hpp"
 #include "nadir/core/error.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/pipelines/flight/growing_map_file.hpp"
+#include "nadir/pipelines/flight/mapping_work.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nadir::cli {

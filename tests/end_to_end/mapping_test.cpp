@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/nadir_process.hpp"
-#include "nadir/io/elevation_file.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/photo_file.hpp"
-#include "nadir/io/photo_poses.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
+#include "nadir/io/photos/photo_poses.hpp"
 #include "support/data.hpp"
 
 namespace nadir::testing {

@@ -12,7 +12,7 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "end_to_end/small_site.hpp"
-#include "nadir/io/elevation_file.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
 
 namespace nadir::testing {
 namespace {

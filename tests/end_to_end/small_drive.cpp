@@ -5,8 +5,8 @@
 
 #include "end_to_end/nadir_process.hpp"
 #include "nadir/core/random.hpp"
-#include "nadir/io/drive_writer.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/drives/drive_writer.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 
 namespace nadir::testing {
 namespace {

@@ -2,8 +2,8 @@
 #include "end_to_end/small_flight.hpp"
 
 #include "nadir/core/angle.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 namespace nadir::testing {
 

@@ -2,7 +2,7 @@
 #include "end_to_end/small_site.hpp"
 
 #include "end_to_end/nadir_process.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
 #include "nadir/simulation/simulated_drive.hpp"
 
 namespace nadir::testing {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_site.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/aeroground.hpp"
-#include "nadir/io/photo_file.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/aeroground.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 // truth.txt beside a map and two local maps.
 NADIR_FUZZ_TARGET(aeroground_truth) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/detail/kitti_calibration.hpp"
+#include "nadir/io/drives/detail/kitti_calibration.hpp"
 
 NADIR_FUZZ_TARGET(camera_kitti) {
   const nadir::KittiCalibration calibration(nadir::fuzz::as_file("calib.txt", input));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/detail/camera_yaml.hpp"
+#include "nadir/io/drives/detail/camera_yaml.hpp"
 
 NADIR_FUZZ_TARGET(camera_opencv) {
   const std::filesystem::path file = nadir::fuzz::as_file("stereo.yml", input);

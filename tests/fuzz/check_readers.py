@@ -49,16 +49,16 @@ NO_READERS = {
 READERS_ELSEWHERE = {
     "features_from": "src/nadir/aerial_mapping/sfm/stored.hpp",
     "pair_from": "src/nadir/aerial_mapping/sfm/stored.hpp",
-    "gps_rationals": "src/nadir/io/detail/exif.hpp",
-    "points_of": "src/nadir/io/detail/rosbag_images.hpp",
-    "pixels_of": "src/nadir/io/detail/rosbag_images.hpp",
-    "stereo_rig_of": "src/nadir/io/detail/rosbag_images.hpp",
-    "KittiCalibration": "src/nadir/io/detail/kitti_calibration.hpp",
-    "GeodeticReader": "src/nadir/io/metric_frame.hpp",
-    "utm_zone_at": "src/nadir/io/metric_frame.hpp",
-    "ParticleLogReader": "apps/nadir/particle_log.hpp",
-    "GrowingMapFile": "apps/nadir/growing_map_file.hpp",
-    "EffectiveOptions": "apps/nadir/effective_options.hpp",
+    "gps_rationals": "src/nadir/io/photos/detail/exif.hpp",
+    "points_of": "src/nadir/io/bags/detail/rosbag_images.hpp",
+    "pixels_of": "src/nadir/io/bags/detail/rosbag_images.hpp",
+    "stereo_rig_of": "src/nadir/io/bags/detail/rosbag_images.hpp",
+    "KittiCalibration": "src/nadir/io/drives/detail/kitti_calibration.hpp",
+    "GeodeticReader": "src/nadir/io/maps/metric_frame.hpp",
+    "utm_zone_at": "src/nadir/io/maps/metric_frame.hpp",
+    "ParticleLogReader": "src/nadir/runs/particle_log.hpp",
+    "GrowingMapFile": "src/nadir/pipelines/flight/growing_map_file.hpp",
+    "EffectiveOptions": "src/nadir/pipelines/effective_options.hpp",
     "ViewerServer": "apps/nadir/viewer/viewer_server.hpp",
 }
 
@@ -121,7 +121,7 @@ def readers_of(root):
     for folder in ("src/nadir", "apps/nadir"):
         for header in sorted((root / folder).rglob("*.hpp")):
             place = header.relative_to(root).as_posix()
-            of_io = header.parent == root / "src/nadir/io"
+            of_io = place.startswith("src/nadir/io/") and "/detail/" not in place
             for name, arguments in declared_in(header):
                 declared.add(name)
                 by_path = of_io and "std::filesystem::path&" in arguments

@@ -11,11 +11,11 @@ import unittest
 CHECKER = pathlib.Path(__file__).resolve().parent / "check_readers.py"
 
 TREE = {
-    "src/nadir/io/point_cloud.hpp":
+    "src/nadir/io/drives/point_cloud.hpp":
         "/// Reads by extension, as read_nothing() would.\n"
         "PointCloud read_point_cloud(const std::filesystem::path& path);\n"
         "void write_ply(const std::filesystem::path& path, const std::vector<LidarPoint>& points);\n",
-    "src/nadir/io/map_tiles.hpp":
+    "src/nadir/io/maps/map_tiles.hpp":
         "class MapTiles {\n public:\n  explicit MapTiles(const std::filesystem::path& path);\n"
         "  ~MapTiles();\n  int width() const { return width_; }\n};\n",
     "apps/nadir/frame_range.hpp": "FrameRange parse_frame_range(const std::string& text);\n",
@@ -81,7 +81,7 @@ class CheckReadersTest(unittest.TestCase):
         self.assert_accepted({"apps/nadir/las.hpp": "float load_pixel(int column, int row);\n"})
 
     def test_a_target_reads_what_is_declared_and_has_a_source_and_a_corpus(self):
-        self.assert_found({"src/nadir/io/map_tiles.hpp": "int x;\n"}, "tiles READS MapTiles")
+        self.assert_found({"src/nadir/io/maps/map_tiles.hpp": "int x;\n"}, "tiles READS MapTiles")
         self.assert_found({"tests/fuzz/cloud.cpp": None}, "there is no cloud.cpp")
         self.assert_found({"tests/fuzz/corpus/cloud/seed": None}, "corpus/cloud", "no corpus")
         self.assert_found({"tests/fuzz/corpus/clouds/seed": ""}, "corpus/clouds", "no target")

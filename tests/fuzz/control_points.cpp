@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/control_points.hpp"
+#include "nadir/io/photos/control_points.hpp"
 
 NADIR_FUZZ_TARGET(control_points) {
   for (const auto& point :

@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz_raster.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/elevation_file.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
 
 NADIR_FUZZ_TARGET(elevation) {
   const std::filesystem::path file = nadir::fuzz::as_file("surface.tif", input);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/detail/exif.hpp"
+#include "nadir/io/photos/detail/exif.hpp"
 #include "fuzz/fuzz_target.hpp"
 
 // The head of a JPEG, and times as EXIF writes them.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/point_cloud.hpp"
+#include "nadir/io/drives/point_cloud.hpp"
 
 namespace nadir::fuzz {
 

@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz_site.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
 
 namespace nadir::fuzz {
 

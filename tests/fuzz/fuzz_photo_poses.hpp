@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/photo_poses.hpp"
+#include "nadir/io/photos/photo_poses.hpp"
 
 namespace nadir::fuzz {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_run.hpp"
 
-#include "nadir/io/sequence.hpp"
-#include "particle_log.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/runs/particle_log.hpp"
 #include "run_files.hpp"
 
 namespace nadir::fuzz {
@@ -21,7 +21,7 @@ std::filesystem::path small_run() {
   }
   site.finish();
   cli::write_run(run, result, {});
-  cli::ParticleLogWriter log(run / "particles.bin");
+  ParticleLogWriter log(run / "particles.bin");
   for (int i = 0; i < 2; ++i) log.append({{{10.0 + i, 15.0, 0.0}}, {1.0}, {1.0}});
   return run;
 }

@@ -2,7 +2,7 @@
 #include "fuzz/fuzz_site.hpp"
 
 #include "nadir/io/image.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 
 namespace nadir::fuzz {
 

@@ -21,7 +21,7 @@ class Viewer {
         site_(scratch_folder() / "site_of_run"),
         run_({site_, site_ / "map.tif"}, {}, run_folder_ / "particles.bin", true),
         server_(
-            run_, &events_, [](const cli::Prior& prior) { check(prior); }, any_port()) {
+            run_, &events_, [](const Prior& prior) { check(prior); }, any_port()) {
     for (int i = 0; i < 2; ++i) {
       cli::ViewFrame frame;
       frame.number = i + 1;
@@ -44,13 +44,13 @@ class Viewer {
     return options;
   }
 
-  static void check(const cli::Prior& prior) {
+  static void check(const Prior& prior) {
     if (!prior.pose.is_finite() || !(prior.spread.position_m >= 0.0)) std::abort();
   }
 
   std::filesystem::path run_folder_;
   std::filesystem::path site_;
-  cli::EventHub events_;
+  EventHub events_;
   cli::RunView run_;
   cli::ViewerServer server_;
 };

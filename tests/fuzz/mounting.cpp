@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/mounting_file.hpp"
+#include "nadir/io/drives/mounting_file.hpp"
 
 NADIR_FUZZ_TARGET(mounting) {
   const nadir::Mounting mounting =

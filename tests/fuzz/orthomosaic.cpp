@@ -3,8 +3,8 @@
 
 #include "fuzz/fuzz_raster.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/map_tiles.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/map_tiles.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 
 // A GeoTIFF, and whatever else GDAL takes it for.
 NADIR_FUZZ_TARGET(orthomosaic) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/orthomosaic_import.hpp"
+#include "nadir/io/maps/orthomosaic_import.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 NADIR_FUZZ_TARGET(photo) {
   const std::filesystem::path file = nadir::fuzz::as_file("photo.jpg", input);

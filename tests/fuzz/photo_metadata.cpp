@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 NADIR_FUZZ_TARGET(photo_metadata) {
   using nadir::fuzz::require;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 #include "fuzz/fuzz_target.hpp"
 
 // TUM, KITTI and EuRoC, told apart by their first line.

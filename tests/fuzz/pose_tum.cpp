@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 
 NADIR_FUZZ_TARGET(pose_tum) {
   const std::filesystem::path file = nadir::fuzz::as_file("track.tum", input);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/position_list.hpp"
+#include "nadir/io/photos/position_list.hpp"
 
 NADIR_FUZZ_TARGET(positions) {
   for (const auto& listed : nadir::read_positions(nadir::fuzz::as_file("geo.txt", input))) {

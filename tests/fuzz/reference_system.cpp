@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/metric_frame.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
 
 // The line that names a reference system, and points in it.
 NADIR_FUZZ_TARGET(reference_system) {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/detail/rosbag_images.hpp"
+#include "nadir/io/bags/detail/rosbag_images.hpp"
 
 // Two sensor_msgs/CameraInfo as they lie, with what their topics and lenses are called.
 NADIR_FUZZ_TARGET(ros_camera) {

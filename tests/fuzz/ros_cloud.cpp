@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_cloud.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/detail/rosbag_images.hpp"
+#include "nadir/io/bags/detail/rosbag_images.hpp"
 
 // sensor_msgs/PointCloud2: 18 bytes of header, ten a field, then the data.
 NADIR_FUZZ_TARGET(ros_cloud) {

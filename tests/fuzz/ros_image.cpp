@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/detail/rosbag_images.hpp"
+#include "nadir/io/bags/detail/rosbag_images.hpp"
 
 // sensor_msgs/Image: which encoding, 12 bytes of header, then the data.
 NADIR_FUZZ_TARGET(ros_image) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/bag_topics.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/bags/bag_topics.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
 
 NADIR_FUZZ_TARGET(rosbag) {
   const std::filesystem::path file = nadir::fuzz::as_file("drive.bag", input);

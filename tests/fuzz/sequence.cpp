@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
 #include "fuzz/fuzz_site.hpp"
 #include "fuzz/fuzz_target.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz_site.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 
 // The world file and the .prj beside an image.
 NADIR_FUZZ_TARGET(world_file) {

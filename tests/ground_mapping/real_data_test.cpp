@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nadir/ground_mapping/self_check.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
 #include "support/data.hpp"
 
 namespace nadir::test {

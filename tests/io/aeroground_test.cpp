@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/aeroground.hpp"
+#include "nadir/io/drives/aeroground.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "nadir/core/angle.hpp"
-#include "nadir/io/aeroground_map.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/maps/aeroground_map.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/data.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

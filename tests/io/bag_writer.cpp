@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled as C++17: nadir/io/detail/ros1.hpp says why.
+// Compiled as C++17: nadir/io/bags/detail/ros1.hpp says why.
 #include "io/bag_writer.hpp"
 
 #include <bzlib.h>

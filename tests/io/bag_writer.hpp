@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "nadir/io/detail/ros1.hpp"
+#include "nadir/io/bags/detail/ros1.hpp"
 
 namespace nadir::test {
 

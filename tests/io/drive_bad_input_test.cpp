@@ -9,10 +9,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/small_drive.hpp"
-#include "nadir/io/detail/camera_yaml.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/detail/camera_yaml.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 #include "support/expect_error.hpp"
 
 namespace nadir {

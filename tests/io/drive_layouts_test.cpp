@@ -6,9 +6,9 @@
 #include <opencv2/core.hpp>
 
 #include "io/small_drive.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
+#include "nadir/io/drives/point_cloud.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/point_cloud.hpp"
 #include "support/expect_error.hpp"
 
 namespace nadir {

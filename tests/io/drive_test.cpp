@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "io/small_drive.hpp"
-#include "nadir/io/drive_reader.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
+#include "nadir/io/drives/point_cloud.hpp"
 #include "nadir/io/image.hpp"
-#include "nadir/io/point_cloud.hpp"
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 #include "support/data.hpp"
 
 namespace nadir {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/elevation_file.hpp"
+#include "nadir/io/maps/elevation_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "io/random_raster.hpp"
+#include "nadir/io/drives/sequence.hpp"
 #include "nadir/io/input_file.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

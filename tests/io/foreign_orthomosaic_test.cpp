@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/gdal_files.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

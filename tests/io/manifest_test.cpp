@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/manifest.hpp"
+#include "nadir/io/provenance/manifest.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "nadir/io/json.hpp"
-#include "nadir/io/sha256.hpp"
+#include "nadir/io/provenance/sha256.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

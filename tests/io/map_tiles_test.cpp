@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/map_tiles.hpp"
+#include "nadir/io/maps/map_tiles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/random_raster.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/metric_frame.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
 
 #include <gtest/gtest.h>
 

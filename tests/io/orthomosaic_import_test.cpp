@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/orthomosaic_import.hpp"
+#include "nadir/io/maps/orthomosaic_import.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/gdal_files.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/photo_file.hpp"
+#include "nadir/io/photos/photo_file.hpp"
 
 #include <gtest/gtest.h>
 

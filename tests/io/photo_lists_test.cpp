@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "nadir/io/control_points.hpp"
-#include "nadir/io/position_list.hpp"
+#include "nadir/io/photos/control_points.hpp"
+#include "nadir/io/photos/position_list.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

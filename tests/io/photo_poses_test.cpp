@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/photo_poses.hpp"
+#include "nadir/io/photos/photo_poses.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "nadir/core/angle.hpp"
-#include "nadir/io/colmap_process.hpp"
+#include "nadir/io/photos/colmap_process.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/point_cloud.hpp"
+#include "nadir/io/drives/point_cloud.hpp"
 
 #include <gtest/gtest.h>
 

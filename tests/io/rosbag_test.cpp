@@ -11,11 +11,11 @@
 
 #include "io/bag_drive.hpp"
 #include "io/small_drive.hpp"
-#include "nadir/io/bag_topics.hpp"
-#include "nadir/io/detail/message_layout.hpp"
-#include "nadir/io/drive_reader.hpp"
-#include "nadir/io/mounting_file.hpp"
-#include "nadir/io/pose_file.hpp"
+#include "nadir/io/bags/bag_topics.hpp"
+#include "nadir/io/bags/detail/message_layout.hpp"
+#include "nadir/io/drives/drive_reader.hpp"
+#include "nadir/io/drives/mounting_file.hpp"
+#include "nadir/io/trajectories/pose_file.hpp"
 #include "support/expect_error.hpp"
 
 namespace nadir {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
 
 #include <gtest/gtest.h>
 
 #include "io/random_raster.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

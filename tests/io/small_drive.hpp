@@ -7,7 +7,7 @@
 
 #include "nadir/core/random.hpp"
 #include "nadir/core/sensors.hpp"
-#include "nadir/io/drive_writer.hpp"
+#include "nadir/io/drives/drive_writer.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace nadir::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/track_file.hpp"
+#include "nadir/io/trajectories/track_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "io/gdal_files.hpp"
 #include "nadir/core/angle.hpp"
-#include "nadir/io/metric_frame.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 

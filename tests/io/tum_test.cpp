@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nadir/io/yaml_options.hpp"
+#include "nadir/io/options/yaml_options.hpp"
 
 #include <gtest/gtest.h>
 

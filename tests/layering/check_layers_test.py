@@ -3,6 +3,7 @@
 """Plants includes in a small tree and looks at what tools/check_layers.py says of them."""
 
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -25,8 +26,14 @@ TREE = {
     "src/nadir/localizer.hpp": '#include "nadir/localization/filter.hpp"\n'
                                '#include "nadir/map_matching/matching.hpp"\n',
     "src/nadir/nadir.hpp": '#include "nadir/localizer.hpp"\n',
-    "apps/nadir/verbs.hpp": "#include <CLI/CLI.hpp>\n",
-    "apps/nadir/main.cpp": '#include <iostream>\n#include "verbs.hpp"\n'
+    "src/nadir/io/maps/tiles.hpp": "",
+    "src/nadir/runs/run_folder.hpp": '#include "nadir/localizer.hpp"\n#include "nadir/io/maps/tiles.hpp"\n',
+    "src/nadir/pipelines/flight/map_flight.hpp": '#include "nadir/runs/run_folder.hpp"\n',
+    "src/nadir/pages/run_page.hpp": '#include "nadir/pipelines/flight/map_flight.hpp"\n'
+                                    '#include "nadir/report/figures.hpp"\n',
+    "src/nadir/viewer/server.cpp": '#include <httplib.h>\n#include "nadir/pipelines/flight/map_flight.hpp"\n',
+    "apps/nadir/cli/streams.hpp": "#include <CLI/CLI.hpp>\n",
+    "apps/nadir/main.cpp": '#include <iostream>\n#include "cli/streams.hpp"\n'
                            '#include "nadir/nadir.hpp"\n#include "nadir/report/figures.hpp"\n',
     "src/nadir/report/figures.hpp": "",
 }
@@ -82,6 +89,33 @@ class CheckLayersTest(unittest.TestCase):
             self.assert_found(f"src/nadir/{module}/x.cpp",
                               '#include "nadir/map_matching/matching.hpp"\n', "core only")
         self.assert_found("src/nadir/report/x.cpp", "#include <fstream>\n", "files")
+
+    def test_the_upper_rooms_know_those_below_them_only(self):
+        for path, header in (("runs/x.cpp", "pipelines/flight/map_flight.hpp"), ("runs/x.cpp", "report/figures.hpp"),
+                             ("runs/x.cpp", "map_matching/matching.hpp"), ("pipelines/x.cpp", "pages/run_page.hpp"),
+                             ("pipelines/localize/x.cpp", "report/figures.hpp"),
+                             ("viewer/x.cpp", "pages/run_page.hpp"), ("viewer/x.cpp", "report/figures.hpp"),
+                             ("localizer.cpp", "report/figures.hpp"), ("io/x.cpp", "runs/run_folder.hpp")):
+            self.assert_found(f"src/nadir/{path}", f'#include "nadir/{header}"\n', "may include")
+
+    def test_rooms_are_public_and_what_is_deeper_is_not(self):
+        self.assert_accepted("src/nadir/runs/x.hpp", '#include "nadir/io/maps/tiles.hpp"\n')
+        self.assert_found("src/nadir/runs/x.hpp", '#include "nadir/io/maps/detail/x.hpp"\n', "there is no")
+
+    def test_prints_signals_and_exits_belong_to_apps(self):
+        calls = ('fmt::print("x");', "std::cout << 1;", 'std::fputs("x", stderr);', "std::exit(1);", "_exit(1);",
+                 "std::signal(SIGINT, f);", "std::raise(SIGTERM);")
+        for path in ("src/nadir/core/x.cpp", "src/nadir/pipelines/x.cpp", "src/nadir/viewer/x.cpp"):
+            for call in calls:
+                self.assert_found(path, call + "\n", "terminal" if re.search("print|cout|fputs", call) else "apps")
+        for call in calls:
+            self.assert_accepted("apps/nadir/cli/x.cpp", call + "\n")
+        self.assert_found("src/nadir/pipelines/x.cpp", "#include <csignal>\n", "signals")
+
+    def test_the_command_line_and_the_server_have_a_home(self):
+        self.assert_found("src/nadir/pipelines/x.cpp", "#include <CLI/CLI.hpp>\n", "CLI11")
+        for path in ("src/nadir/pages/x.cpp", "apps/nadir/verbs/x.cpp"):
+            self.assert_found(path, "#include <httplib.h>\n", "cpp-httplib")
 
     def test_gdal_lives_in_io(self):
         for path in ("src/nadir/map_matching/x.cpp", "src/nadir/report/x.cpp", "apps/nadir/x.cpp"):

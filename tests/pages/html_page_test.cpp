@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "html_page.hpp"
+#include "nadir/pages/html_page.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "nadir/io/image.hpp"
-#include "nadir/io/manifest.hpp"
+#include "nadir/io/provenance/manifest.hpp"
 #include "page_check.hpp"
 #include "run_files.hpp"
 #include "support/expect_error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer/event_hub.hpp"
+#include "nadir/viewer/event_hub.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What clients that are slow, silent or greedy may take of the viewer's server.
-#include "viewer/http_server.hpp"
+#include "nadir/viewer/http_server.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "particle_log.hpp"
+#include "nadir/runs/particle_log.hpp"
 
 #include <gtest/gtest.h>
 

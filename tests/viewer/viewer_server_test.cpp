@@ -14,9 +14,9 @@
 
 #include "loopback_client.hpp"
 #include "nadir/core/random.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
-#include "nadir/io/sequence.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
 #include "run_files.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_view.hpp"
+#include "viewer/live_view.hpp"
 
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "../base64.hpp"
-#include "../interrupt.hpp"
+#include "cli/interrupt.hpp"
+#include "nadir/io/base64.hpp"
 
 namespace nadir::cli {
 namespace {

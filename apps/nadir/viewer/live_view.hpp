@@ -6,9 +6,9 @@
 #include <mutex>
 #include <optional>
 
-#include "event_hub.hpp"
-#include "run_view.hpp"
-#include "viewer_server.hpp"
+#include "nadir/viewer/event_hub.hpp"
+#include "viewer/run_view.hpp"
+#include "viewer/viewer_server.hpp"
 
 namespace nadir::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_view.hpp"
+#include "viewer/run_view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "../base64.hpp"
-#include "../run_record.hpp"
-#include "../site.hpp"
 #include "nadir/core/error.hpp"
-#include "nadir/io/metric_frame.hpp"
-#include "nadir/io/orthomosaic_file.hpp"
+#include "nadir/io/base64.hpp"
+#include "nadir/io/maps/metric_frame.hpp"
+#include "nadir/io/maps/orthomosaic_file.hpp"
+#include "nadir/pipelines/site.hpp"
+#include "run_record.hpp"
 
 namespace nadir::cli {
 namespace {

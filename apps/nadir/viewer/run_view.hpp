@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "../particle_log.hpp"
-#include "../streams.hpp"
-#include "nadir/io/map_tiles.hpp"
-#include "nadir/io/sequence.hpp"
+#include "cli/streams.hpp"
+#include "nadir/io/drives/sequence.hpp"
+#include "nadir/io/maps/map_tiles.hpp"
 #include "nadir/localizer.hpp"
-#include "view_frames.hpp"
+#include "nadir/runs/particle_log.hpp"
+#include "viewer/view_frames.hpp"
 
 namespace nadir::cli {
 

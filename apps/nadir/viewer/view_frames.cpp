@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view_frames.hpp"
+#include "viewer/view_frames.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "../run_files.hpp"
-#include "../site.hpp"
 #include "nadir/core/error.hpp"
 #include "nadir/core/options.hpp"
 #include "nadir/io/input_file.hpp"
-#include "nadir/io/tum.hpp"
+#include "nadir/io/trajectories/tum.hpp"
+#include "nadir/pipelines/site.hpp"
+#include "run_files.hpp"
 
 namespace nadir::cli {
 namespace {

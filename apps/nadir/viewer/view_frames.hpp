@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../localize_run.hpp"
-#include "../streams.hpp"
+#include "cli/streams.hpp"
+#include "localize_run.hpp"
 
 namespace nadir::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewer_server.hpp"
+#include "viewer/viewer_server.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "../base64.hpp"
-#include "http_server.hpp"
 #include "nadir/core/error.hpp"
-#include "web_assets.hpp"
+#include "nadir/io/base64.hpp"
+#include "nadir/viewer/http_server.hpp"
+#include "nadir/viewer/web_assets.hpp"
 
 namespace nadir::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "../prior.hpp"
-#include "event_hub.hpp"
-#include "http_limits.hpp"
-#include "run_view.hpp"
+#include "nadir/pipelines/localize/prior.hpp"
+#include "nadir/viewer/event_hub.hpp"
+#include "nadir/viewer/http_limits.hpp"
+#include "viewer/run_view.hpp"
 
 namespace nadir::cli {
 

@@ -79,6 +79,22 @@ double parse_number(std::string_view text, const std::string& what) {
   return value;
 }
 
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& flag, const std::string& form) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parse_number(text.substr(begin, comma - begin), flag));
+    begin = comma + 1;
+  }
+  if (numbers.size() != count) {
+    throw Error(ErrorKind::kUsage,
+                "'" + text + "' does not have " + std::to_string(count) + " numbers", flag,
+                "write " + form);
+  }
+  return numbers;
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
   constexpr std::size_t kLongest = 256;  // of what was meant for a name
   std::string nearest;

@@ -81,4 +81,9 @@ std::string to_text(double value);
 /// Parses a whole text as a finite number. Throws Error (usage) that names `what`.
 double parse_number(std::string_view text, const std::string& what);
 
+/// Numbers separated by commas. Throws Error (usage) that names `flag` and the `form` to write
+/// where there are not `count` of them.
+std::vector<double> parse_numbers(const std::string& text, std::size_t count,
+                                  const std::string& flag, const std::string& form);
+
 }  // namespace nadir
