@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// One bar at a time: that of the stage that was heard of last.
 class StageProgress {
  public:
-  explicit StageProgress(const CommonOptions& common) : common_(common) {}
+  explicit StageProgress(CommonOptions common) : common_(std::move(common)) {}
 
   void update(const std::string& stage, int done, int total) {
     if (stage != stage_ || total != total_ || !bar_) {

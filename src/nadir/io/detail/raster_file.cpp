@@ -69,7 +69,7 @@ void check_ascii_grid(const Path& file, std::string_view head, std::uint64_t fil
     words >> value;
     const auto read = std::from_chars(value.data(), value.data() + value.size(), count);
     if (read.ec != std::errc{} || count == 0 || count > kMostRasterPixels) {
-      throw input_error(file, "its header declares '" + key + " " + value + "'",
+      throw input_error(file, fmt::format("its header declares '{} {}'", key, value),
                         "copy or make it again");
     }
     std::uint64_t& side = key == "ncols" ? columns : rows;

@@ -28,7 +28,7 @@ enum class RasterUse { kMap, kPhoto };
 ///   for a VRT that does more than put bands of local files of the other formats side by side;
 ///   for overviews in a file that the raster names, or that lie beside it and are no TIFF;
 ///   where GDAL cannot open it, and where it has no band.
-GdalDataset open_raster(const std::filesystem::path& path, const GdalErrors& errors,
+GdalDataset open_raster(const std::filesystem::path& file, const GdalErrors& errors,
                         RasterUse use = RasterUse::kMap);
 
 }  // namespace nadir

@@ -47,7 +47,7 @@ class VrtWalk {
       const std::string_view written = node->pszValue;
       if (written.starts_with('?') || written.starts_with('!')) continue;  // of XML itself
       const std::string name = lower_name(node->pszValue);
-      if (elements().count(name) == 0) refuse(node->pszValue);
+      if (!elements().contains(name)) refuse(node->pszValue);
       if (depth > kDeepest) refuse("elements in elements");
       if (name == "vrtdataset" && depth > 1) refuse("a VRTDataset inside");
       if (name == "sourcefilename") take_source(*node);
