@@ -297,16 +297,16 @@ class BagFile::Walk {
       throw input_error(path_, "has no index: the recording was cut off",
                         "run `rosbag reindex` on it");
     }
-    if (index_position_ != size_ && starts_.count(index_position_) == 0) {
+    if (index_position_ != size_ && !starts_.contains(index_position_)) {
       fail(index_position_, "there is no index, though the file's first record says so");
     }
     for (const std::uint64_t position : listed_chunks_) {
-      if (chunk_starts_.count(position) == 0) {
+      if (!chunk_starts_.contains(position)) {
         fail(position, "there is no chunk, though one is listed");
       }
     }
     for (const auto& [connection, place] : indexed_) {
-      if (connections_.count(connection) == 0)
+      if (!connections_.contains(connection))
         fail(place, "an index is of a topic that is not listed");
     }
   }
