@@ -2,7 +2,8 @@
 #include "nadir/io/photos/colmap_process.hpp"
 
 #include <fcntl.h>
-#include <signal.h>  // kill(): a child is sent a signal, none is handled here
+// POSIX's kill(), which <csignal> need not have: a child is sent a signal, none is handled here.
+#include <signal.h>  // NOLINT(modernize-deprecated-headers)
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
