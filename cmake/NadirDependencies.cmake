@@ -33,7 +33,7 @@ endif()
 # ROS 1 bags are read where the definitions of their messages are there.
 set(NADIR_HAS_ROSBAG OFF)
 if(NOT NADIR_WITH_ROSBAG STREQUAL "OFF")
-  include(FindRosbagStorage)  # nadir_rosbag
+  include(FindRosbag)  # nadir_rosbag
   if(TARGET nadir_rosbag)
     set(NADIR_HAS_ROSBAG ON)
   elseif(NADIR_WITH_ROSBAG STREQUAL "ON")

@@ -16,7 +16,7 @@ set(nadir_find_fmt::fmt "find_dependency(fmt)")
 set(nadir_find_Threads::Threads "find_dependency(Threads)")
 set(nadir_find_OpenSSL::Crypto "find_dependency(OpenSSL)")
 set(nadir_find_Ceres::ceres "find_dependency(Ceres 2.0)")
-set(nadir_find_nadir_rosbag "include(\"\${CMAKE_CURRENT_LIST_DIR}/FindRosbagStorage.cmake\")")
+set(nadir_find_nadir_rosbag "include(\"\${CMAKE_CURRENT_LIST_DIR}/FindRosbag.cmake\")")
 foreach(library cudart_static cufft)
   set(nadir_find_CUDA::${library} "find_dependency(CUDAToolkit 11.8)")
 endforeach()
@@ -89,7 +89,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/nadirConfigVersion.
 install(FILES ${PROJECT_BINARY_DIR}/cmake/nadirConfig.cmake
               ${PROJECT_BINARY_DIR}/cmake/nadirConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindOpenCVModules.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/FindRosbagStorage.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindRosbag.cmake
         DESTINATION ${nadir_config_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -122,6 +122,21 @@ TEST_F(RasterFile, EveryDirectoryOfATiffIsLookedAt) {
   expect_bytes_refused(file_of(2304), {"2304 bands"});
 }
 
+/// Every directory takes 786 kB, and the next begins eight bytes behind it: 20,000 of them in 1 MB,
+/// which to read would be 15 GB.
+TEST_F(RasterFile, DirectoriesOfATiffDoNotOverlap) {
+  constexpr std::uint32_t kCount = 20'000;
+  constexpr std::uint32_t kEntries = 0xffff;
+  constexpr std::uint32_t kPointer = 2 + 12 * kEntries;  // from the begin of a directory
+  std::string bytes = "II*" + std::string(1, '\0') + test::little_endian(8, 4);
+  bytes.resize(8 + 8 * kCount + kPointer + 4);
+  for (std::uint32_t begin = 8; begin < 8 + 8 * kCount; begin += 8) {
+    bytes.replace(begin, 2, test::little_endian(kEntries, 2));
+    bytes.replace(begin + kPointer, 4, test::little_endian(begin + 8, 4));
+  }
+  expect_bytes_refused(bytes, {"map.tif", "directories overlap"});
+}
+
 TEST_F(RasterFile, LargeEmptyFilesAreRead) {
   for (const char* big : {"YES", "NO"}) {
     test::write_sparse_tiff(file_, 9000, 8000, {{"BIGTIFF", big}, {"TILED", "YES"}});

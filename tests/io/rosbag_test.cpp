@@ -577,6 +577,42 @@ TEST_F(Rosbag, TopicsThatLie) {
                  {"drive.bag", "topic that is not listed"});
 }
 
+/// 20,000 entries of an index that each point to the first of 10,000 topics: to go through them all
+/// would take minutes.
+TEST_F(Rosbag, AnIndexDoesNotPointToTopicsWithoutEnd) {
+  const auto u32 = [](std::uint32_t value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  const auto record = [&](const std::vector<std::string>& fields, const std::string& data) {
+    std::string header;
+    for (const std::string& field : fields) {
+      header += u32(static_cast<std::uint32_t>(field.size())) + field;
+    }
+    return u32(static_cast<std::uint32_t>(header.size())) + header +
+           u32(static_cast<std::uint32_t>(data.size())) + data;
+  };
+  const auto op = [](char number) { return std::string("op=") + number; };
+  const std::string topic = record({op(7), "conn=" + u32(0), "topic=/a"}, "");
+  std::string chunk;
+  for (int i = 0; i < 10'000; ++i) chunk += topic;
+  chunk += record({op(2), "conn=" + u32(0), "time=" + u32(1) + u32(0)}, "x");
+  std::string entries;
+  constexpr std::uint32_t kEntries = 20'000;
+  for (std::uint32_t i = 0; i < kEntries; ++i) entries += u32(1) + u32(0) + u32(0);
+  const std::uint64_t nowhere = 1;
+  test::write_text(
+      file(),
+      "#ROSBAG V2.0\n" +
+          record({op(3), "index_pos=" + std::string(reinterpret_cast<const char*>(&nowhere), 8),
+                  "conn_count=" + u32(1), "chunk_count=" + u32(1)},
+                 "") +
+          record(
+              {op(5), "compression=none", "size=" + u32(static_cast<std::uint32_t>(chunk.size()))},
+              chunk) +
+          record({op(4), "ver=" + u32(1), "conn=" + u32(0), "count=" + u32(kEntries)}, entries));
+  expect_error(ErrorKind::kInput, {"drive.bag", "points to no message"}, [&] { list_bag(file()); });
+}
+
 /// What a compressed chunk holds is known only once it is unpacked.
 TEST_F(Rosbag, CompressedChunksThatLie) {
   write_whole();

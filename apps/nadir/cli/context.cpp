@@ -49,7 +49,11 @@ PipelineContext context_of(const Invocation& invocation) {
           .stop = interrupt_token(),
           .progress = [bars](const std::string& stage, int done,
                              int total) { bars->update(stage, done, total); },
-          .note = [quiet = common.quiet](const std::string& text) { print_note(text, quiet); },
+          .note =
+              [bars, quiet = common.quiet](const std::string& text) {
+                bars->end();
+                print_note(text, quiet);
+              },
           .arguments = invocation.arguments};
 }
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <string>
 
+#include "nadir/io/detail/file_pieces.hpp"
 #include "nadir/io/detail/tiff_check.hpp"
 #include "nadir/io/detail/vrt_check.hpp"
 #include "nadir/io/image_file_check.hpp"
@@ -24,30 +24,6 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kHead = 1024;
 constexpr std::string_view kErdasAuxiliary = "EHFA_HEADER_TAG";
-
-/// A file by pieces, so that the header of a large one is read alone.
-class FilePieces {
- public:
-  explicit FilePieces(const Path& file)
-      : stream_(file, std::ios::binary), size_(std::filesystem::file_size(file)) {}
-
-  std::uint64_t size() const { return size_; }
-
-  std::string at(std::uint64_t position, std::size_t count) {
-    if (position >= size_) return {};
-    std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - position)),
-                      '\0');
-    stream_.clear();
-    stream_.seekg(static_cast<std::streamoff>(position));
-    stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(stream_.gcount()));
-    return bytes;
-  }
-
- private:
-  std::ifstream stream_;
-  std::uint64_t size_ = 0;
-};
 
 /// The keys that GDAL's driver takes at the begin of an Arc/Info ASCII grid.
 bool is_ascii_grid(std::string_view head) {

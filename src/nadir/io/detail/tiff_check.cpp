@@ -44,6 +44,7 @@ class TiffReader {
     const std::uint64_t count =
         std::min<std::uint64_t>(number(count_bytes, 0, count_size), 0xffffU);
     const std::string entries = bytes_(next_ + count_size, count * entry_size);
+    bytes_of_directories_ += entries.size();
     directory_ = {};
     rows_ = 0;
     apart_ = together_ = false;
@@ -55,6 +56,10 @@ class TiffReader {
     next_ = number(bytes_(end, pointer_size), 0, pointer_size);
     return finished();
   }
+
+  /// Of all directories so far. In a sound file they do not overlap, so that it is no more than the
+  /// file has.
+  std::uint64_t bytes_of_directories() const { return bytes_of_directories_; }
 
  private:
   /// An unsigned number in the order of the file; 0 beyond the end.
@@ -139,6 +144,7 @@ class TiffReader {
   bool big_ = false;
   std::uint64_t next_ = 0;
   std::set<std::uint64_t> seen_;
+  std::uint64_t bytes_of_directories_ = 0;
   TiffDirectory directory_;
   std::uint64_t rows_ = 0;  ///< of a strip; 0 = all
   bool apart_ = false;
@@ -198,7 +204,12 @@ std::optional<TiffDirectory> first_tiff_directory(const BytesAt& bytes) {
 
 void check_tiff(const std::filesystem::path& path, const BytesAt& bytes, std::uint64_t file_size) {
   TiffReader reader(bytes);
-  while (const auto directory = reader.next()) check_directory(path, *directory, file_size);
+  while (const auto directory = reader.next()) {
+    if (reader.bytes_of_directories() > file_size) {
+      throw input_error(path, "its directories overlap", "copy or make it again, it is damaged");
+    }
+    check_directory(path, *directory, file_size);
+  }
 }
 
 }  // namespace nadir

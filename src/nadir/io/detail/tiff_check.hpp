@@ -36,7 +36,8 @@ std::optional<TiffDirectory> first_tiff_directory(const BytesAt& bytes);
 /// which makes room for a block and for every band. Throws Error (input) where one declares
 ///   more than kMostBands bands;
 ///   blocks of more than 2^26 pixels that are larger than the image;
-///   blocks of more than 64 MiB that the file cannot hold by its compression.
+///   blocks of more than 64 MiB that the file cannot hold by its compression;
+/// and where the directories overlap, as one file could name itself again and again.
 /// Blocks that are not there, as in a sparse file, are sound, and so is a directory that cannot be
 /// read: the decoder says so.
 void check_tiff(const std::filesystem::path& path, const BytesAt& bytes, std::uint64_t file_size);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <string_view>
 
 #include "nadir/io/bags/detail/bag_chunk.hpp"
+#include "nadir/io/detail/file_pieces.hpp"
 #include "nadir/io/input_file.hpp"
 
 namespace nadir::ros1 {
@@ -19,6 +19,9 @@ namespace {
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
 constexpr std::uint32_t kMostHeaderBytes = 1U << 20U;
 constexpr std::uint32_t kMostChunkBytes = 1U << 28U;
+/// Writers note a message's own place, rosbag reads on behind topics. Without a bound every entry
+/// of an index could go through all of a chunk.
+constexpr int kMostTopicsBefore = 64;
 
 /// op of a record.
 enum class Op : char {
@@ -86,15 +89,14 @@ class BagFile::Walk {
   };
 
  public:
-  explicit Walk(const std::filesystem::path& file)
-      : path_(file), stream_(file, std::ios::binary), size_(std::filesystem::file_size(file)) {}
+  explicit Walk(const std::filesystem::path& file) : path_(file), pieces_(file) {}
 
   void walk() {
-    if (read(0, kVersion.size()) != kVersion) {
+    if (pieces_.at(0, kVersion.size()) != kVersion) {
       throw input_error(path_, "is no bag of version 2.0", "run `rosbag fix` on it");
     }
     const Stretch file = whole();
-    for (std::uint64_t position = kVersion.size(); position < size_;) {
+    for (std::uint64_t position = kVersion.size(); position < pieces_.size();) {
       const Record record = record_at(file, position);
       look_at(record);
       position = record.end();
@@ -112,10 +114,10 @@ class BagFile::Walk {
     const Chunk& chunk = chunks_.at(message.chunk);
     if (!chunk.is_compressed()) {
       const Record record = message_at(within(chunk), chunk.data + message.offset);
-      return read(record.data, record.size);
+      return pieces_.at(record.data, record.size);
     }
     if (unpacked_ != message.chunk) {
-      auto bytes = unpacked(chunk.compression, read(chunk.data, chunk.packed), chunk.size);
+      auto bytes = unpacked(chunk.compression, pieces_.at(chunk.data, chunk.packed), chunk.size);
       if (!bytes) fail(chunk.begin, "the chunk there cannot be unpacked");
       unpacked_bytes_ = *std::move(bytes);
       unpacked_ = message.chunk;
@@ -139,17 +141,10 @@ class BagFile::Walk {
     fail(position, problem);
   }
 
-  std::string read(std::uint64_t position, std::size_t count) {
-    std::string bytes(count, '\0');
-    stream_.clear();
-    stream_.seekg(static_cast<std::streamoff>(position));
-    stream_.read(bytes.data(), static_cast<std::streamsize>(count));
-    bytes.resize(static_cast<std::size_t>(stream_.gcount()));
-    return bytes;
-  }
-
   Stretch whole() {
-    return {[this](std::uint64_t at, std::size_t count) { return read(at, count); }, size_, {}};
+    return {[this](std::uint64_t at, std::size_t count) { return pieces_.at(at, count); },
+            pieces_.size(),
+            {}};
   }
   Stretch within(const Chunk& chunk) {
     Stretch stretch = whole();
@@ -186,7 +181,10 @@ class BagFile::Walk {
   /// The message at a place of a chunk, behind the topics that may stand before it.
   Record message_at(const Stretch& stretch, std::uint64_t position) const {
     Record record = record_at(stretch, position);
-    while (op_of(record) == Op::kConnection) record = record_at(stretch, record.end());
+    for (int topics = 0; op_of(record) == Op::kConnection; ++topics) {
+      if (topics == kMostTopicsBefore) fail(stretch, position, "the index points to no message");
+      record = record_at(stretch, record.end());
+    }
     if (op_of(record) != Op::kMessage) {
       fail(stretch, position, "the index points to no message");
     }
@@ -260,8 +258,9 @@ class BagFile::Walk {
 
   /// The data of a topic's record is a list of fields too.
   void take_connection(const Record& record) {
-    const auto about =
-        record.size > kMostHeaderBytes ? std::nullopt : fields_of(read(record.data, record.size));
+    const auto about = record.size > kMostHeaderBytes
+                           ? std::nullopt
+                           : fields_of(pieces_.at(record.data, record.size));
     if (!about) fail(record.begin, "what it says of a topic is no list of fields");
     connections_.emplace(number_in<std::uint32_t>(record, "conn"),
                          BagConnection{text_in(record.fields, "topic", record.begin),
@@ -279,7 +278,7 @@ class BagFile::Walk {
     const Chunk& chunk = chunks_.back();
     const auto connection = number_in<std::uint32_t>(record, "conn");
     indexed_.emplace(connection, record.begin);
-    const std::string entries = read(record.data, record.size);
+    const std::string entries = pieces_.at(record.data, record.size);
     for (std::size_t i = 0; i + kEntry <= entries.size(); i += kEntry) {
       const auto number = [&](std::size_t at) {
         return number_at<std::uint32_t>(entries, i + at).value_or(0);
@@ -297,7 +296,7 @@ class BagFile::Walk {
       throw input_error(path_, "has no index: the recording was cut off",
                         "run `rosbag reindex` on it");
     }
-    if (index_position_ != size_ && !starts_.contains(index_position_)) {
+    if (index_position_ != pieces_.size() && !starts_.contains(index_position_)) {
       fail(index_position_, "there is no index, though the file's first record says so");
     }
     for (const std::uint64_t position : listed_chunks_) {
@@ -312,8 +311,7 @@ class BagFile::Walk {
   }
 
   std::filesystem::path path_;
-  std::ifstream stream_;
-  std::uint64_t size_ = 0;
+  FilePieces pieces_;
   std::uint64_t index_position_ = 0;
   std::vector<Chunk> chunks_;
   std::set<std::uint64_t> chunk_starts_;
